@@ -1,0 +1,1 @@
+"""Lip sync data for any language and any face."""

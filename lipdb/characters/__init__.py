@@ -1,0 +1,1 @@
+"""Faces: pose sets, links from poses to shapes, meshes and pictures."""

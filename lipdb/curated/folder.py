@@ -1,0 +1,60 @@
+"""Read and write a whole folder of curated data."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from lipdb.curated.schema import table_of
+from lipdb.curated.tsv import Finding, Key, Records, Row, format_rows, parse_rows
+from lipdb.errors import PhonesetError
+from lipdb.files import whole_file
+
+
+def scan_folder(folder: Path) -> tuple[dict[str, dict[Key, Row]], list[Finding]]:
+    """Every table below *folder*, and everything that is wrong in it, all at once."""
+    records: dict[str, dict[Key, Row]] = {}
+    findings: list[Finding] = []
+    for file in sorted(folder.rglob("*.tsv")):
+        path = file.relative_to(folder).as_posix()
+        table = table_of(path)
+        if table is None:
+            findings.append(Finding(path, 1, 1, "no table has this name; see docs/data.md for the layout"))
+            continue
+        try:
+            text = file.read_text("utf-8")
+        except (UnicodeDecodeError, OSError) as error:
+            findings.append(Finding(path, 1, 1, f"can't be read as UTF-8 text ({error})"))
+            continue
+        records[path], bad = parse_rows(table, text, file=path)
+        findings += bad
+    return records, findings
+
+
+def read_folder(folder: Path) -> dict[str, dict[Key, Row]]:
+    """Every table below *folder*. Raises `PhonesetError` with all findings when anything is wrong."""
+    if not folder.is_dir():
+        raise PhonesetError(f"{folder}: no such folder; give the folder of curated data with --phonesets or LIPDB_PHONESETS")
+    records, findings = scan_folder(folder)
+    if findings:
+        raise PhonesetError("\n".join(str(finding) for finding in findings))
+    if not records:
+        raise PhonesetError(f"{folder}: no curated data in it; it should hold common.tsv and a folder for each language")
+    return records
+
+
+def write_folder(records: Records, folder: Path) -> list[str]:
+    """Write *records* below *folder*, changing only files whose text differs; the paths that were written."""
+    written = []
+    for path, rows in sorted(records.items()):
+        table = table_of(path)
+        if table is None:
+            raise PhonesetError(f"{path}: no table has this name; see docs/data.md for the layout")
+        text = format_rows(table, rows)
+        file = folder / path
+        if file.is_file() and file.read_bytes() == text.encode():
+            continue
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with whole_file(file) as temporary:
+            temporary.write_text(text, "utf-8", newline="\n")
+        written.append(path)
+    return written

@@ -1,0 +1,174 @@
+"""The tables of curated data: one file pattern, its columns and its key. Everything else follows from this list.
+
+A table is a tab-separated file below `phonesets/`; a row is one fact. The same rows are what the store keeps, edits,
+compares and writes back, so a new kind of fact is one more entry here.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from functools import cache
+
+from lipdb.curves.keys import format_keys, parse_keys
+from lipdb.errors import CurveError
+
+ORIGINS = ("authored", "fitted", "generated", "imported")
+TIME_FORMAT = "%Y-%m-%dT%H:%M:%SZ"
+NAME = re.compile(r"\S+")
+
+Canonical = Callable[[str], str]
+"""Turns a cell into its canonical text; raises `ValueError` with a sentence that says what is wrong."""
+
+
+def _text(cell: str) -> str:
+    return " ".join(cell.split())
+
+
+def _name(cell: str) -> str:
+    if not NAME.fullmatch(cell):
+        raise ValueError(f"{cell!r} must be one word")
+    return cell
+
+
+def _number(cell: str) -> str:
+    try:
+        value = float(cell)
+    except ValueError:
+        raise ValueError(f"{cell!r} is not a number") from None
+    if value != value or value in (float("inf"), float("-inf")):
+        raise ValueError(f"{cell!r} is not a finite number")
+    return f"{value:.4f}".rstrip("0").rstrip(".") if value else "0"
+
+
+def _count(cell: str) -> str:
+    if not cell.isascii() or not cell.isdecimal():
+        raise ValueError(f"{cell!r} is not a whole number")
+    return str(int(cell))
+
+
+def _keys(cell: str) -> str:
+    try:
+        return format_keys(parse_keys(cell))
+    except CurveError as error:
+        raise ValueError(str(error)) from error
+
+
+def _time(cell: str) -> str:
+    try:
+        return datetime.strptime(cell, TIME_FORMAT).strftime(TIME_FORMAT)
+    except ValueError:
+        raise ValueError(f"{cell!r} is not a time; write it as 2026-11-22T09:30:00Z (UTC)") from None
+
+
+def _one_of(*choices: str) -> Canonical:
+    def check(cell: str) -> str:
+        if cell not in choices:
+            raise ValueError(f"{cell!r} is none of {', '.join(choices)}")
+        return cell
+
+    return check
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column: its name, its canonical form, and whether a row may leave it empty."""
+
+    name: str
+    canonical: Canonical = _text
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """One kind of file: *pattern* with ``{parts}`` that stand for one path component's name, columns, key columns."""
+
+    pattern: str
+    columns: tuple[Column, ...]
+    key: tuple[str, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The column names in order, as the header line has them."""
+        return tuple(column.name for column in self.columns)
+
+    def parts(self, path: str) -> dict[str, str] | None:
+        """What the ``{parts}`` of the pattern are in *path*, or None when the path is not of this table."""
+        match = _regex(self.pattern).fullmatch(path)
+        return match.groupdict() if match else None
+
+
+@cache
+def _regex(pattern: str) -> re.Pattern[str]:
+    parts = re.split(r"(\{\w+\})", pattern)
+    kinds = {"language": r"[a-z]{2,3}(?:_[a-z0-9]+)?"}
+    return re.compile("".join(f"(?P<{p[1:-1]}>{kinds.get(p[1:-1], '[a-z0-9_]+')})" if p.startswith("{") else re.escape(p) for p in parts))
+
+
+def _columns(words: str, **kinds: Canonical) -> tuple[Column, ...]:
+    """Columns from their names; a name that ends in ``?`` may be empty."""
+    return tuple(Column(word.rstrip("?"), kinds.get(word.rstrip("?"), _text), word.endswith("?")) for word in words.split())
+
+
+_SOURCED = "source comment?"
+_PROVENANCE = "origin source licence author time comment?"
+_ORIGIN: dict[str, Canonical] = {"origin": _one_of(*ORIGINS), "source": _name, "licence": _name, "time": _time}
+_MAPPING: dict[str, Canonical] = {"phone": _name, **_ORIGIN}
+_CURVE = _columns(
+    "left right pose keys? warp " + _PROVENANCE,
+    left=_name, right=_name, pose=_name, keys=_keys, warp=_one_of("border", "linear"), **_ORIGIN,
+)  # fmt: skip
+_LINK = _columns(
+    "pose shape gain combine curve? " + _SOURCED,
+    pose=_name, shape=_name, gain=_number, combine=_one_of("sum", "max"), curve=_keys, source=_name,
+)  # fmt: skip
+
+TABLES: tuple[Table, ...] = (
+    Table("sources.tsv", _columns("source title licence url? comment?", source=_name, licence=_name), ("source",)),
+    # Common phones. *ipa* is a typical segment of the class: what "nearest by articulation" compares.
+    Table(
+        "common.tsv",
+        _columns("phone kind ipa? language? example? " + _SOURCED, phone=_name, kind=_one_of("vowel", "consonant", "silence"), source=_name),
+        ("phone",),
+    ),
+    # The common layer of the phone mapping: IPA segment to common phones.
+    Table("ipa.tsv", _columns("phone common " + _PROVENANCE, **_MAPPING), ("phone",)),
+    # Pose sets: order, priority (empty: none), speed limit (1/s), and whether the pose must reach its peak.
+    Table(
+        "poses/{pose_set}.tsv",
+        _columns(
+            "pose position priority? speed must_reach description " + _SOURCED,
+            pose=_name, position=_count, priority=_count, speed=_number, must_reach=_one_of("yes", "no"), source=_name,
+        ),
+        ("pose",),
+    ),
+    Table("poses/sets.tsv", _columns("pose_set window threshold title " + _SOURCED, pose_set=_name, window=_number, threshold=_number, source=_name), ("pose_set",)),
+    Table("constraints/{pose_set}.tsv", _columns("pose other threshold " + _SOURCED, pose=_name, other=_name, threshold=_number, source=_name), ("pose", "other")),
+    Table("links/{pose_set}/{target}.tsv", _LINK, ("pose", "shape")),
+    Table("curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
+    # What the shared curves are generated from.
+    Table(
+        "targets/{pose_set}.tsv",
+        _columns("phone pose target insistence " + _PROVENANCE, phone=_name, pose=_name, target=_number, insistence=_number, **_ORIGIN),
+        ("phone", "pose"),
+    ),
+    # A language. *voice* is what the speech engine calls it, *speech* the plug-in that makes schedules from its text.
+    Table("{language}/language.tsv", _columns("language name notation speech voice script " + _SOURCED, language=_name, notation=_name, source=_name), ("language",)),
+    Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, **_MAPPING), ("phone",)),
+    Table("{language}/aliases.tsv", _columns("notation symbol phones " + _SOURCED, notation=_name, symbol=_name, source=_name), ("notation", "symbol")),
+    Table("{language}/syllables.tsv", _columns("syllable initial? final ipa xsampa characters example? status " + _SOURCED, syllable=_name, source=_name), ("syllable",)),
+    Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
+    # A character. *mesh* is `built:NAME` for the shipped ones, or a file in the character's folder.
+    Table("characters/{character}/character.tsv", _columns("character pose_set drawing title " + _SOURCED, character=_name, pose_set=_name, source=_name), ("character",)),
+    Table("characters/{character}/links.tsv", _LINK, ("pose", "shape")),
+    Table("characters/{character}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
+    Table("characters/{character}/mapping.tsv", _columns("language phone common " + _PROVENANCE, language=_name, **_MAPPING), ("language", "phone")),
+)  # fmt: skip
+
+
+@cache
+def table_of(path: str) -> Table | None:
+    """The table that the file at *path* (relative to the folder, with ``/``) belongs to, or None. Exact names go first."""
+    return next((t for t in sorted(TABLES, key=lambda t: t.pattern.count("{")) if t.parts(path) is not None), None)

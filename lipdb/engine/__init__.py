@@ -1,0 +1,1 @@
+"""From timed common phones to pose weights. numpy only."""

@@ -1,0 +1,1 @@
+"""Write a performance to files."""

@@ -1,0 +1,39 @@
+"""Write files whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from lipdb.errors import OutputError
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A temporary path beside *path*, with its suffix, that takes its place when the block ends without an error.
+
+    Raises `OutputError` when the folder is missing, read-only or full; *path* is then as it was before.
+    """
+    if not path.parent.is_dir():
+        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
+    if path.is_dir():
+        raise OutputError(f"{path}: this is a folder; give a file name")
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".lipdb-", suffix=path.suffix)
+        os.close(handle)
+    except OSError as error:
+        raise OutputError(f"{path}: can't write into {path.parent} ({error.strerror}); choose another folder") from error
+    temporary = Path(name)
+    try:
+        yield temporary
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
+        temporary.replace(path)
+    except OSError as error:
+        raise OutputError(f"{path}: can't be written ({error.strerror or error}); free some space or choose another folder") from error
+    finally:
+        temporary.unlink(missing_ok=True)

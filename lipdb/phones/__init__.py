@@ -1,0 +1,1 @@
+"""Phones: symbols, aliases, and the common phones they map to."""

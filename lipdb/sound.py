@@ -1,0 +1,51 @@
+"""Recorded or synthesised speech: one channel of samples."""
+
+from __future__ import annotations
+
+import wave
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipdb.errors import InputError
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sound:
+    """Signed 16-bit samples of shape ``(n,)``, *rate* of them a second."""
+
+    samples: NDArray[np.int16]
+    rate: int
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return len(self.samples) / self.rate
+
+
+def read_wav(path: Path) -> Sound:
+    """The first channel of a PCM wave file with 8, 16, 24 or 32 bits. Raises `InputError`."""
+    try:
+        with wave.open(str(path), "rb") as file:
+            width, channels, rate, raw = file.getsampwidth(), file.getnchannels(), file.getframerate(), file.readframes(file.getnframes())
+    except FileNotFoundError as error:
+        raise InputError(f"{path}: no such file") from error
+    except (wave.Error, EOFError, OSError) as error:
+        raise InputError(f"{path}: not a PCM wave file ({error}); convert it to 16-bit WAV") from error
+    if width == 1:
+        samples = (np.frombuffer(raw, np.uint8).astype(np.int16) - 128) << 8
+    else:
+        whole = np.frombuffer(raw[: len(raw) // width * width], np.uint8).reshape(-1, width)
+        samples = np.ascontiguousarray(whole[:, -2:]).view("<i2")[:, 0]
+    return Sound(np.ascontiguousarray(samples[::channels], np.int16), rate)
+
+
+def write_wav(path: Path, sound: Sound) -> None:
+    """Write 16-bit PCM; the same sound gives the same bytes."""
+    with wave.open(str(path), "wb") as file:
+        file.setnchannels(1)
+        file.setsampwidth(2)
+        file.setframerate(sound.rate)
+        file.writeframes(sound.samples.astype("<i2").tobytes())

@@ -1,0 +1,1 @@
+"""Curated data in a database: the only place that knows SQL."""
