@@ -1,1 +1,103 @@
-"""The command line, a thin mirror of the library."""
+"""The command line, a thin mirror of the library.
+
+Commands are imported when they are asked for, so that `lipdb --help` answers at once.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+import click
+
+from lipdb.cli.options import Options
+from lipdb.errors import LipdbError
+
+COMMANDS = {
+    "say": ("lipdb.cli.speak:say", "Speak a sentence and write the moving face."),
+    "sync": ("lipdb.cli.speak:sync", "Move a face to a recording that was aligned already."),
+    "phones": ("lipdb.cli.inspect:phones", "Show the phones of a text and the common phones they map to."),
+    "pairs": ("lipdb.cli.inspect:pairs", "Show the phone pairs of a text and where their curves come from."),
+    "explain": ("lipdb.cli.inspect:explain", "Show what made each weight at one instant."),
+    "language": ("lipdb.cli.language:language", "List and show languages."),
+    "character": ("lipdb.cli.character:character", "List, show and add characters."),
+    "curves": ("lipdb.cli.curves:curves", "Make the shared curves again from their parameters."),
+    "db": ("lipdb.cli.db:db", "Look after the database: history, undo, text in and out."),
+    "doctor": ("lipdb.cli.doctor:doctor", "Show what is installed, what works, and how to mend the rest."),
+    "completion": ("lipdb.cli.completion:completion", "Print the completion script of a shell."),
+}
+
+EXIT_CODES = """\
+\b
+Exit codes:
+  0  done                            5  unknown phone symbols
+  1  another error                   6  somebody else saved first
+  2  wrong use of the command        7  database locked, damaged, too old or new
+  3  curated data are wrong          8  an optional part is not installed
+  4  a file or text can't be used    9  a result can't be written
+"""
+
+
+class Commands(click.Group):
+    """A group whose commands are imported on first use."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The names, in the order in which people need them."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command *cmd_name*, or None."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, _, attribute = COMMANDS[cmd_name][0].partition(":")
+        command: click.Command = getattr(import_module(module), attribute)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, help_text) for name, (_, help_text) in COMMANDS.items()])
+
+
+@click.command(
+    cls=Commands,
+    epilog=EXIT_CODES,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
+@click.option("--db", envvar="LIPDB_URL", metavar="FILE|URL", help="The database; the user's own by default.")
+@click.option("--phonesets", envvar="LIPDB_PHONESETS", metavar="FOLDER", help="The curated text that fills a new database.")
+@click.version_option(package_name="lipdb", message="lipdb %(version)s")
+@click.pass_context
+def cli(ctx: click.Context, db: str | None, phonesets: str | None) -> None:
+    """Lip sync data for any language and any face.
+
+    \b
+    Examples:
+      lipdb say "Hello world" --language en --character crab -o hello.mp4
+      lipdb pairs "你好，世界" --language cmn
+      lipdb doctor
+    """
+    ctx.obj = Options(db, phonesets)
+
+
+def main() -> None:
+    """Run the command line; every error that a user can cause is one line and an exit code."""
+    try:
+        cli(prog_name="lipdb", standalone_mode=False)
+    except click.exceptions.Exit as done:
+        sys.exit(done.exit_code)
+    except click.Abort:
+        sys.exit(130)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except LipdbError as error:
+        click.echo(f"lipdb: {error}", err=True)
+        sys.exit(error.exit_code)
+    except BrokenPipeError:
+        # The reader of our output went away (`lipdb … | head`): nothing is left to tell it.
+        sys.stderr.close()
+        sys.exit(0)
+
+
+__all__ = ["cli", "main"]

@@ -1,0 +1,66 @@
+"""``lipdb doctor``: what is installed, what works, and how to mend the rest."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import click
+
+from lipdb.cli.options import Options, json_option, print_listing
+from lipdb.errors import LipdbError, MissingToolError
+
+PACKAGES = ("numpy", "pandas", "pyarrow", "sqlalchemy", "phonemizer", "espeakng-loader", "pypinyin", "pyrender", "av", "streamlit")
+
+
+@click.command(short_help="Show what is installed, what works, and how to mend the rest.")
+@json_option
+@click.pass_obj
+def doctor(options: Options, as_json: bool) -> None:
+    """Show what is installed, what works, and how to mend the rest. Exit code 8 when something is missing.
+
+    \b
+    Example:
+      lipdb doctor --json
+    """
+    rows = [*_packages(), *(_try(part, check, options) for part, check in CHECKS.items())]
+    print_listing(rows, as_json=as_json, columns=("part", "state", "detail"))
+    if any(row["state"] == "missing" for row in rows):
+        sys.exit(MissingToolError.exit_code)
+
+
+def _packages() -> Iterator[dict[str, Any]]:
+    yield {"part": "python", "state": "ok", "detail": sys.version.split()[0]}
+    for package in PACKAGES:
+        try:
+            yield {"part": package, "state": "ok", "detail": version(package)}
+        except PackageNotFoundError:
+            yield {"part": package, "state": "missing", "detail": f"mend it with: pip install {package}"}
+
+
+def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[str, Any]:
+    try:
+        return {"part": part, "state": "ok", "detail": check(options)}
+    except LipdbError as error:
+        return {"part": part, "state": "missing", "detail": str(error)}
+
+
+def _database(options: Options) -> str:
+    with options.open() as db:
+        return f"{db.store.describe()}, revision {db.store.revision}"
+
+
+def _voice(options: Options) -> str:
+    with options.open() as db:
+        return "; ".join(f"{row['language']}: {db.voice(row['language']).version}" for row in db.languages())
+
+
+def _pictures(_: Options) -> str:
+    from lipdb.render.gl import backend
+
+    return backend()
+
+
+CHECKS: dict[str, Callable[[Options], str]] = {"database": _database, "voices": _voice, "pictures": _pictures}

@@ -1,0 +1,45 @@
+"""``lipdb phones``, ``pairs`` and ``explain``: what decides the result, before and after."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from lipdb.cli.options import Options, json_option, print_json, print_listing
+
+LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
+
+
+@click.command(short_help="Show the phones of a text and the common phones they map to.")
+@click.argument("text")
+@LANGUAGE
+@click.option("-c", "--character", help="Show the phones as this character says them.")
+@json_option
+@click.pass_obj
+def phones(options: Options, text: str, language: str, character: str | None, as_json: bool) -> None:
+    """Show the phones of TEXT, the common phones they map to, and the layer that each mapping comes from.
+
+    \b
+    Example:
+      lipdb phones "你好" --language cmn
+    """
+    with options.open() as db:
+        if character is not None:
+            db.character(character)
+        line = db.say(text, language=language, allow_unknown=True)
+        schedule, unknown = db.phoneset(language, character=character).resolve(line.schedule, allow_unknown=True)
+        rows = [
+            {
+                "word": schedule.words[phone.word] if phone.word >= 0 else "",
+                "symbol": phone.symbol,
+                "common": list(phone.common),
+                "layer": phone.layer,
+                "tone": phone.tone or "",
+                "stress": phone.stress or "",
+            }
+            for phone in schedule.phones
+        ]
+        print_listing(rows, as_json=as_json)
+        for symbol in unknown:
+            click.echo(f"lipdb: {symbol}", err=True)

@@ -1,0 +1,69 @@
+"""What every command shares: the global options, the ways to print a listing, and how progress is shown."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from lipdb.database import Database
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """The global options."""
+
+    db: str | None
+    phonesets: str | None
+
+    def open(self) -> Database:
+        """The database that the options name."""
+        import lipdb
+
+        return lipdb.open(self.db, phonesets=self.phonesets)
+
+
+def json_option(command: F) -> F:
+    """Add ``--json``."""
+    return click.option("--json", "as_json", is_flag=True, help="Print JSON.")(command)
+
+
+def print_json(data: Any) -> None:
+    """Print *data* for a program to read."""
+    click.echo(json.dumps(data, ensure_ascii=False, indent=2))
+
+
+def print_listing(rows: Sequence[Mapping[str, Any]], *, as_json: bool, columns: Iterable[str] = ()) -> None:
+    """Print *rows*: JSON when asked, a table to a person, tab-separated text into a pipe."""
+    if as_json:
+        print_json([dict(row) for row in rows])
+        return
+    names = list(columns) or list(rows[0] if rows else ())
+    if not sys.stdout.isatty():
+        for row in [dict(zip(names, names, strict=True)), *rows]:
+            click.echo("\t".join(_cell(row.get(name, "")) for name in names))
+        return
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(*names, box=box.SIMPLE_HEAD, pad_edge=False)
+    for row in rows:
+        table.add_row(*(Text(_cell(row.get(name, ""))) for name in names))
+    Console().print(table)
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.3f}".rstrip("0").rstrip(".")
+    if isinstance(value, list | tuple):
+        return " ".join(map(str, value))
+    return str(value)

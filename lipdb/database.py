@@ -1,0 +1,232 @@
+"""The facade: curated data, and what can be done with it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from lipdb import plugins
+from lipdb.errors import InputError
+from lipdb.line import CurveKey, Line
+from lipdb.schedule import SILENCE
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    from lipdb.characters.character import Character
+    from lipdb.curated.tsv import Records, Row
+    from lipdb.curves.curve import Curve
+    from lipdb.curves.lookup import CurveBook, Found
+    from lipdb.performance import Performance
+    from lipdb.phones.phoneset import PhoneSet
+    from lipdb.poses import PoseSet
+    from lipdb.schedule import Schedule
+    from lipdb.speech.voice import Voice
+    from lipdb.store.database import Edit, Store
+
+DEFAULT_CHARACTER = "robin"
+DEFAULT_LANGUAGE = "en"
+DEFAULT_FPS = 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class PairUse:
+    """A phone pair that a line needs: how often, and the winning curve of every pose."""
+
+    left: str
+    right: str
+    count: int
+    curves: Mapping[str, Found]
+
+
+def open(url: str | None = None, *, phonesets: str | Path | None = None) -> Database:
+    """Open the database at *url*, making and filling it on first use.
+
+    *url* is a file, an SQLAlchemy URL, or None for ``LIPDB_URL`` or else a file in the user's data folder. *phonesets*
+    is the folder of curated text that fills a new database. Raises `StoreError`.
+    """
+    from lipdb.store.database import Store
+
+    return Database(Store.open(url, phonesets=Path(phonesets) if phonesets else None))
+
+
+class Database:
+    """Curated data, and everything that is made with it. Use it as a context manager, or `close` it."""
+
+    def __init__(self, store: Store) -> None:
+        self.store = store
+        self._records: tuple[int, Records] | None = None
+        self._voices: dict[str, Voice] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the database."""
+        self.store.close()
+
+    @property
+    def records(self) -> Records:
+        """All the curated data as it stands now; read again only when somebody has edited it."""
+        revision = self.store.revision
+        if self._records is None or self._records[0] != revision:
+            self._records = revision, self.store.records()
+            self._voices.clear()
+        return self._records[1]
+
+    def edit(self, *, author: str, note: str = "") -> AbstractContextManager[Edit]:
+        """One transaction of edits: `put` and `delete` rows inside the block. See `lipdb.store`."""
+        return self.store.edit(author=author, note=note)
+
+    # Languages and characters
+
+    def languages(self) -> list[Row]:
+        """The row of every language, sorted by its code."""
+        return [row for path, rows in sorted(self.records.items()) if path.endswith("/language.tsv") for row in rows.values()]
+
+    def language(self, code: str) -> Row:
+        """The row of language *code*. Raises `InputError` when there is none."""
+        known = {row["language"]: row for row in self.languages()}
+        return known[_known(code, known, "language")]
+
+    def phoneset(self, language: str, *, character: str | None = None) -> PhoneSet:
+        """The phones of *language* and what they map to, as *character* says them."""
+        from lipdb.phones.phoneset import PhoneSet
+
+        self.language(language)
+        return PhoneSet.from_records(self.records, language, character=character)
+
+    def characters(self) -> list[Row]:
+        """The row of every character, sorted by its name."""
+        return [row for path, rows in sorted(self.records.items()) if path.endswith("/character.tsv") for row in rows.values()]
+
+    def character(self, name: str) -> Character:
+        """The character *name*. Raises `InputError` when there is none."""
+        from lipdb.characters.character import Character
+
+        known = {row["character"]: row for row in self.characters()}
+        return Character.from_records(self.records, _known(name, known, "character"), folder=self.store.characters_folder)
+
+    def pose_set(self, name: str) -> PoseSet:
+        """The pose set *name*."""
+        from lipdb.poses import PoseSet
+
+        return PoseSet.from_records(self.records, name)
+
+    # From text or a recording to a line
+
+    def voice(self, language: str) -> Voice:
+        """The voice that speaks *language*."""
+        row = self.language(language)
+        if language not in self._voices:
+            makers = plugins.voices()
+            maker = makers[_known(row["speech"], makers, "voice plug-in")]
+            self._voices[language] = maker(self.records, language)
+        return self._voices[language]
+
+    def say(self, text: str, *, language: str = DEFAULT_LANGUAGE, allow_unknown: bool = False) -> Line:
+        """Speak *text*: a line with schedule and sound; the same text gives the same line.
+
+        Raises `InputError` for text that the language can't read, and `UnknownSymbolError` for phones that no table
+        knows unless *allow_unknown* maps them by articulation.
+        """
+        from lipdb.speech.cache import spoken
+
+        result = spoken(self.voice(language), text)
+        schedule, _ = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
+        return Line(schedule, result.sound, text)
+
+    def sync(
+        self,
+        path: str | Path,
+        *,
+        audio: str | Path | None = None,
+        language: str = DEFAULT_LANGUAGE,
+        tier: str | None = None,
+        notation: str = "",
+        allow_unknown: bool = False,
+    ) -> Line:
+        """Read a recording that was aligned already: a TextGrid, or a line's JSON with a person's edits.
+
+        *tier* names the tier of phones, *notation* the symbols that it uses; both are found when not given. Raises as
+        `say` does, and `ScheduleError` for times that can't be.
+        """
+        from lipdb.export.json import read_line
+        from lipdb.sound import read_wav
+
+        path = Path(path)
+        sound = read_wav(Path(audio)) if audio else None
+        if path.suffix.lower() == ".json":
+            line = read_line(path, sound=sound)
+            self.language(line.language)
+            return line
+        from dataclasses import replace
+
+        self.language(language)
+        raw: Schedule = plugins.by_suffix(plugins.readers(), path, "reader")(path, tier=tier)
+        raw = replace(raw, language=language, notation=notation or raw.notation)
+        schedule, _ = self.phoneset(language).resolve(raw, allow_unknown=allow_unknown)
+        return Line(schedule, sound)
+
+    # From a line to a moving face
+
+    def book(
+        self, pose_set: str, *, language: str, character: str | None = None, line: Mapping[CurveKey, Curve] | None = None
+    ) -> CurveBook:
+        """The winning curve of every pair and pose, through all layers."""
+        from lipdb.curves.lookup import CurveBook
+
+        return CurveBook.from_records(self.records, pose_set, language=language, character=character, line=line or {})
+
+    def animate(
+        self, line: Line, *, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS
+    ) -> Performance:
+        """Move *character*'s face to *line*: a track of pose weights, with the character and the sound."""
+        from lipdb import engine
+        from lipdb.performance import Performance
+
+        who, line, book = self._prepare(line, character)
+        edges, phones = line.schedule.common()
+        pose_set = self.pose_set(who.pose_set)
+        track = engine.animate(book.table(phones), pose_set, edges, phones, fps=fps)
+        return Performance(track, who, line.sound, line)
+
+    def _prepare(self, line: Line, character: str | Character) -> tuple[Character, Line, CurveBook]:
+        """The character, the line with its phones mapped as the character says them, and the curves for both."""
+        from dataclasses import replace
+
+        who = self.character(character) if isinstance(character, str) else character
+        phoneset = self.phoneset(line.language, character=who.name)
+        schedule, _ = phoneset.resolve(line.schedule, line=line.mapping, allow_unknown=True)
+        book = self.book(who.pose_set, language=line.language, character=who.name, line=line.curves.get(who.pose_set))
+        return who, replace(line, schedule=schedule), book
+
+    # What decided
+
+    def pairs(self, line: Line, *, character: str | Character = DEFAULT_CHARACTER) -> list[PairUse]:
+        """Every pair of common phones in *line*, most frequent first, with the winning curve of every pose."""
+        who, line, book = self._prepare(line, character)
+        _, phones = line.schedule.common()
+        counts = Counter(pair for pair in pairwise((SILENCE, *phones, SILENCE)) if pair != (SILENCE, SILENCE))
+        poses = self.pose_set(who.pose_set).poses
+        return [
+            PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in poses})
+            for (left, right), count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+        ]
+
+
+def _known(name: str, known: Mapping[str, object], what: str) -> str:
+    """*name*, if it is *known*. Raises `InputError` with the nearest name or all of them."""
+    if name in known:
+        return name
+    near = get_close_matches(name, known, 1)
+    hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(sorted(known)) or 'none'}"
+    raise InputError(f"no {what} {name!r}; {hint}")
