@@ -186,9 +186,7 @@ class Database:
 
         return CurveBook.from_records(self.records, pose_set, language=language, character=character, line=line or {})
 
-    def animate(
-        self, line: Line, *, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS
-    ) -> Performance:
+    def animate(self, line: Line, *, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS) -> Performance:
         """Move *character*'s face to *line*: a track of pose weights, with the character and the sound."""
         from lipdb import engine
         from lipdb.performance import Performance

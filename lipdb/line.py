@@ -57,12 +57,12 @@ class Line:
     def from_json(cls, data: Any, *, sound: Sound | None = None) -> Self:
         """The line that `to_json` wrote, with the edits that a person made to it. Raises `InputError`."""
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise InputError(f"not a line in lipdb's JSON (its \"format\" should be {FORMAT!r}); make one with `lipdb say -o`")
+            raise InputError(f'not a line in lipdb\'s JSON (its "format" should be {FORMAT!r}); make one with `lipdb say -o`')
         try:
             mapping = {str(phone): tuple(str(common).split()) for phone, common in data.get("mapping", {}).items()}
             curves = {str(pose_set): dict(map(_curve, rows)) for pose_set, rows in data.get("curves", {}).items()}
         except (KeyError, TypeError, AttributeError, CurveError) as error:
-            raise InputError(f"the line's own layer is wrong ({type(error).__name__}: {error}); mend \"mapping\" or \"curves\"") from error
+            raise InputError(f'the line\'s own layer is wrong ({type(error).__name__}: {error}); mend "mapping" or "curves"') from error
         return cls(Schedule.from_json(data.get("schedule")), sound, str(data.get("text", "")), mapping, curves)
 
 

@@ -56,7 +56,7 @@ class Schedule:
         for i, (start, end) in enumerate(zip(self.edges, self.edges[1:], strict=False)):
             if end <= start:
                 raise ScheduleError(
-                    f"schedule: phone {i} ({self.phones[i].symbol!r}) lasts from {start} to {end} µs; every phone must last a microsecond or more"
+                    f"schedule: phone {i} ({self.phones[i].symbol!r}) lasts from {start} to {end} µs; it must last a microsecond or more"
                 )
 
     @classmethod

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
-from lipdb.cli.options import Options, json_option, print_json, print_listing
+from lipdb.cli.options import Options, json_option, print_listing
 
 LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
 

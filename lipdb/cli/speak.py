@@ -97,6 +97,7 @@ def _show(schedule: Schedule, *, as_json: bool) -> None:
         print_json(schedule.to_json())
         return
     rows = [
-        {**row, "word": schedule.words[row["word"]] if row["word"] >= 0 else "", "common": row["common"]} for row in schedule.to_json()["phones"]
+        {**row, "word": schedule.words[row["word"]] if row["word"] >= 0 else "", "common": row["common"]}
+        for row in schedule.to_json()["phones"]
     ]
     print_listing(rows, as_json=False, columns=("start", "end", "symbol", "common", "layer", "word"))
