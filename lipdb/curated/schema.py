@@ -148,12 +148,17 @@ TABLES: tuple[Table, ...] = (
     Table("constraints/{pose_set}.tsv", _columns("pose other threshold " + _SOURCED, pose=_name, other=_name, threshold=_number, source=_name), ("pose", "other")),
     Table("links/{pose_set}/{target}.tsv", _LINK, ("pose", "shape")),
     Table("curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
-    # What the shared curves are generated from.
+    # What the shared curves are generated from. *glide* is a diphthong's second target (empty: it stays at the first).
     Table(
         "targets/{pose_set}.tsv",
-        _columns("phone pose target insistence " + _PROVENANCE, phone=_name, pose=_name, target=_number, insistence=_number, **_ORIGIN),
+        _columns(
+            "phone pose target glide? insistence " + _PROVENANCE,
+            phone=_name, pose=_name, target=_number, glide=_number, insistence=_number, **_ORIGIN,
+        ),
         ("phone", "pose"),
     ),
+    # How far a phone reaches into its neighbours: before its own start (lead) and after its own end (release).
+    Table("timing/{pose_set}.tsv", _columns("phone lead release " + _PROVENANCE, phone=_name, lead=_number, release=_number, **_ORIGIN), ("phone",)),
     # A language. *voice* is what the speech engine calls it, *speech* the plug-in that makes schedules from its text.
     Table("{language}/language.tsv", _columns("language name notation speech voice script " + _SOURCED, language=_name, notation=_name, source=_name), ("language",)),
     Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, **_MAPPING), ("phone",)),
