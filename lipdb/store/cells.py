@@ -1,0 +1,74 @@
+"""Keys and cells as JSON text, the form in which the store keeps them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+from lipdb.curated.tsv import Key, Records, Row
+
+Place = tuple[str, Key]
+"""Where a fact is: the path of its table and its key."""
+
+Flat = dict[Place, Row]
+"""Records in one dictionary."""
+
+
+def key_text(key: Sequence[str]) -> str:
+    """A key as a JSON list."""
+    return json.dumps(list(key), ensure_ascii=False, separators=(",", ":"))
+
+
+def cells_text(row: Row) -> str:
+    """A row as a JSON object, its columns sorted: equal rows are equal text."""
+    return json.dumps(row, ensure_ascii=False, separators=(",", ":"), sort_keys=True)
+
+
+def key_from(text: str) -> Key:
+    """The key that `key_text` wrote."""
+    return tuple(json.loads(text))
+
+
+def row_from(text: str | None) -> Row | None:
+    """The row that `cells_text` wrote; None for none."""
+    if text is None:
+        return None
+    row: Row = json.loads(text)
+    return row
+
+
+def records_from(rows: Sequence[tuple[str, str, str]]) -> dict[str, dict[Key, Row]]:
+    """Records of ``(path, key, cells)`` as stored."""
+    # One call of the JSON reader for everything: a call a row costs four times as much.
+    keys: list[list[str]] = _parse_all(row[1] for row in rows)
+    cells: list[Row] = _parse_all(row[2] for row in rows)
+    records: dict[str, dict[Key, Row]] = {}
+    for (path, _, _), key, row in zip(rows, keys, cells, strict=True):
+        records.setdefault(path, {})[tuple(key)] = row
+    return records
+
+
+def _parse_all(texts: Iterable[str]) -> list[Any]:
+    parsed: list[Any] = json.loads(f"[{','.join(texts)}]")
+    return parsed
+
+
+def stored(records: Records) -> Iterator[tuple[str, str, str]]:
+    """``(path, key, cells)`` of every row, in the order in which text has them."""
+    for path in sorted(records):
+        for key in sorted(records[path]):
+            yield path, key_text(key), cells_text(records[path][key])
+
+
+def flat(records: Records) -> Flat:
+    """*records* in one dictionary."""
+    return {(path, key): row for path, rows in records.items() for key, row in rows.items()}
+
+
+def nested(rows: Flat) -> dict[str, dict[Key, Row]]:
+    """The records of one dictionary; a table without rows is no table."""
+    records: dict[str, dict[Key, Row]] = {}
+    for (path, key), row in rows.items():
+        records.setdefault(path, {})[key] = row
+    return records

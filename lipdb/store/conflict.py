@@ -1,0 +1,55 @@
+"""Somebody else saved first: which rows, and what both sides say."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from lipdb.curated.tsv import Key, Row
+from lipdb.errors import ConflictError
+
+
+@dataclass(frozen=True, slots=True)
+class Versions:
+    """One row as two sides have it. None for *mine* or *theirs* means that it is not there on that side."""
+
+    path: str
+    key: Key
+    mine: Row | None
+    theirs: Row | None
+
+    def __str__(self) -> str:
+        return f"{self.path} {' '.join(self.key)}: theirs {self._differing(self.theirs)}, yours {self._differing(self.mine)}"
+
+    def _differing(self, side: Row | None) -> str:
+        """The cells of *side* in which the two differ."""
+        if side is None:
+            return "not there"
+        other = self.mine if side is self.theirs else self.theirs
+        names = [name for name in side if other is None or side[name] != other.get(name)]
+        return "(" + ", ".join(f"{name} {side[name] or 'empty'}" for name in names) + ")"
+
+    def swapped(self) -> Versions:
+        """The same row seen from the other side."""
+        return Versions(self.path, self.key, mine=self.theirs, theirs=self.mine)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for a listing."""
+        return {"path": self.path, "key": list(self.key), "mine": self.mine, "theirs": self.theirs}
+
+
+class EditConflictError(ConflictError):
+    """An edit or an undo that would lose somebody else's newer work; nothing was saved.
+
+    *conflicts* has every row with both versions; *mine* and *theirs* are those of the first; *revision* is the newest
+    revision that touched one of them, the one to look at before trying again.
+    """
+
+    def __init__(self, conflicts: Sequence[Versions], *, revision: int, author: str, doing: str) -> None:
+        self.conflicts = tuple(conflicts)
+        self.revision = revision
+        self.mine = self.conflicts[0].mine
+        self.theirs = self.conflicts[0].theirs
+        more = f" (and {len(self.conflicts) - 1} more rows)" if len(self.conflicts) > 1 else ""
+        super().__init__(f"{doing}: {author} changed the same in revision {revision}; {self.conflicts[0]}{more}; look at it and try again")

@@ -1,0 +1,95 @@
+"""Connections: which database, and how SQLite is set up for many readers and colliding writers."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import sqlalchemy as sa
+
+from lipdb.errors import StoreError
+from lipdb.paths import DATABASE, home
+
+BUSY_MILLISECONDS = 5000
+# SQLite 3.7.0 to 3.51.2 can damage a database in WAL mode when its log is reset while another program writes.
+WAL_IS_SAFE = sqlite3.sqlite_version_info >= (3, 51, 3)
+WRITER_LOCK = 0x6C697064  # "lipd": PostgreSQL's advisory lock that writers take in turn.
+
+
+def database_url(place: str | Path | None = None) -> sa.URL:
+    """The address of the database: *place*, else ``LIPDB_URL``, else a SQLite file in the user's data folder.
+
+    A place without ``://`` is a SQLite file. Raises `StoreError` for an address that can't be read.
+    """
+    text = str(place or os.environ.get("LIPDB_URL") or home() / DATABASE)
+    if "://" not in text:
+        return sa.URL.create("sqlite", database=str(Path(text).expanduser().absolute()))
+    try:
+        url = sa.make_url(text)
+    except sa.exc.ArgumentError as error:
+        raise StoreError(f"{text.split('@')[-1]}: not the address of a database; give a file, or postgresql://user@host/name") from error
+    if url.drivername in ("postgres", "postgresql"):
+        return url.set(drivername="postgresql+psycopg")
+    return url
+
+
+def place_of(url: sa.URL) -> str:
+    """How *url* is named in messages: the file, or the address without its password."""
+    return str(url.database) if is_file(url) else url.render_as_string(hide_password=True)
+
+
+def is_file(url: sa.URL) -> bool:
+    """Whether *url* is a SQLite file."""
+    return url.get_backend_name() == "sqlite" and bool(url.database) and url.database != ":memory:"
+
+
+def make_engine(url: sa.URL, *, foreign_keys: bool = True) -> sa.Engine:
+    """An engine for *url*; take `reading` or `writing` of it for transactions.
+
+    Migrations that rebuild a table turn *foreign_keys* off, as SQLite wants it.
+    """
+    engine = sa.create_engine(url)
+    if engine.dialect.name == "sqlite":
+        sa.event.listen(engine, "connect", _prepare(foreign_keys))
+    sa.event.listen(engine, "begin", _begin)
+    return engine
+
+
+def writing(engine: sa.Engine) -> sa.Engine:
+    """*engine* for writers: a transaction waits for its turn at its start, so it never fails half-way for a lock."""
+    return engine.execution_options(lipdb_writes=True)
+
+
+def reading(engine: sa.Engine) -> sa.Engine:
+    """*engine* for readers: everything read in one transaction belongs to one state of the database."""
+    # SQLite's transactions do that anyway. Writers must not: they take the state after they waited for their turn.
+    return engine if engine.dialect.name == "sqlite" else engine.execution_options(isolation_level="REPEATABLE READ")
+
+
+def _prepare(foreign_keys: bool) -> Any:
+    def prepare(connection: sqlite3.Connection, _record: object) -> None:
+        connection.isolation_level = None  # Python would begin transactions late, and as readers'; `_begin` does it.
+        connection.execute(f"PRAGMA busy_timeout={BUSY_MILLISECONDS}")
+        connection.execute(f"PRAGMA foreign_keys={'ON' if foreign_keys else 'OFF'}")
+
+    return prepare
+
+
+def _begin(connection: sa.Connection) -> None:
+    writes = connection.get_execution_options().get("lipdb_writes", False)
+    if connection.dialect.name == "sqlite":
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+    elif writes:
+        connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({WRITER_LOCK})")
+
+
+def choose_journal(engine: sa.Engine) -> None:
+    """Set the journal of a new SQLite file: the write-ahead log where it is safe, else the rollback journal."""
+    if WAL_IS_SAFE and is_file(engine.url):
+        connection = engine.raw_connection()
+        try:
+            connection.cursor().execute("PRAGMA journal_mode=WAL")
+        finally:
+            connection.close()
