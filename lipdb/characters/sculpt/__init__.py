@@ -1,0 +1,1 @@
+"""Shapes from formulas: what the shipped characters are built with."""
