@@ -72,7 +72,7 @@ class Targets:
             if row := rows.get((phone, pose)):
                 numbers[:, n, p] = float(row["target"]), float(row["glide"] or row["target"]), float(row["insistence"])
         reach = np.array([[float(timing[phone][name]) for phone in phones] for name in ("lead", "release")]).reshape(2, -1)
-        sources = {key: (row["source"], row["licence"]) for key, row in rows.items()}
+        sources = {(row["phone"], row["pose"]): (row["source"], row["licence"]) for row in rows.values()}
         sources |= {(phone, ""): (row["source"], row["licence"]) for phone, row in timing.items()}
         target, glide, insistence = numbers
         targets = cls(phones, poses, target, glide, insistence, lead=reach[0], release=reach[1], sources=sources)
