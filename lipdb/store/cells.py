@@ -72,3 +72,11 @@ def nested(rows: Flat) -> dict[str, dict[Key, Row]]:
     for (path, key), row in rows.items():
         records.setdefault(path, {})[key] = row
     return records
+
+
+def differing(row: Row | None, other: Row | None) -> str:
+    """The cells of *row* that *other* has not, for a person to read."""
+    if row is None:
+        return "not there"
+    names = [name for name in row if other is None or row[name] != other.get(name)]
+    return ", ".join(f"{name} {row[name]}" if row[name] else f"no {name}" for name in names)

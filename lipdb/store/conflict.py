@@ -8,6 +8,7 @@ from typing import Any
 
 from lipdb.curated.tsv import Key, Row
 from lipdb.errors import ConflictError
+from lipdb.store.cells import differing
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,15 +21,7 @@ class Versions:
     theirs: Row | None
 
     def __str__(self) -> str:
-        return f"{self.path} {' '.join(self.key)}: theirs {self._differing(self.theirs)}, yours {self._differing(self.mine)}"
-
-    def _differing(self, side: Row | None) -> str:
-        """The cells of *side* in which the two differ."""
-        if side is None:
-            return "not there"
-        other = self.mine if side is self.theirs else self.theirs
-        names = [name for name in side if other is None or side[name] != other.get(name)]
-        return "(" + ", ".join(f"{name} {side[name] or 'empty'}" for name in names) + ")"
+        return f"{self.path} {' '.join(self.key)}: theirs {differing(self.theirs, self.mine)}, yours {differing(self.mine, self.theirs)}"
 
     def swapped(self) -> Versions:
         """The same row seen from the other side."""

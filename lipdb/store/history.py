@@ -10,7 +10,7 @@ import sqlalchemy as sa
 
 from lipdb.curated.tsv import Key, Row
 from lipdb.errors import InputError
-from lipdb.store.cells import Flat, Place, key_from, key_text, row_from
+from lipdb.store.cells import Flat, Place, differing, key_from, key_text, row_from
 from lipdb.store.revisions import newest_revision, read_flat
 from lipdb.store.tables import change, record, revision
 
@@ -28,6 +28,11 @@ class Change:
     def to_json(self) -> dict[str, Any]:
         """Plain data for a listing."""
         return {"revision": self.revision, "path": self.path, "key": list(self.key), "before": self.before, "after": self.after}
+
+    def to_row(self) -> dict[str, str]:
+        """A line of a listing: only the cells that changed."""
+        before, after = differing(self.before, self.after), differing(self.after, self.before)
+        return {"path": self.path, "key": " ".join(self.key), "before": before, "after": after}
 
 
 @dataclass(frozen=True, slots=True)
