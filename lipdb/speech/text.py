@@ -1,0 +1,111 @@
+"""Look at a text before a voice reads it: leave out what can't be spoken, refuse what is of another script."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from typing import NamedTuple
+
+from lipdb.errors import InputError
+
+LONGEST_WORD = 60
+PIECE = 20
+
+# First words of the Unicode names of the letters that each script (ISO 15924) uses.
+SCRIPTS: dict[str, tuple[str, ...]] = {
+    "Arab": ("ARABIC",),
+    "Armn": ("ARMENIAN",),
+    "Cyrl": ("CYRILLIC",),
+    "Deva": ("DEVANAGARI",),
+    "Geor": ("GEORGIAN",),
+    "Grek": ("GREEK",),
+    "Hans": ("CJK", "LATIN"),
+    "Hant": ("CJK", "LATIN"),
+    "Hebr": ("HEBREW",),
+    "Jpan": ("CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "LATIN"),
+    "Kore": ("HANGUL", "CJK"),
+    "Latn": ("LATIN",),
+    "Thai": ("THAI",),
+}
+# Letters that belong to no script or that every voice reads by their name.
+NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "DEGREE", "SUPERSCRIPT")
+FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>")
+WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
+
+
+class Text(NamedTuple):
+    """A text that can be spoken, and a note for everything that was left out of it."""
+
+    text: str
+    notes: tuple[str, ...]
+
+
+def clean(text: str) -> Text:
+    """*text* without emoji, control characters and broken Unicode, its full-width and styled letters made plain.
+
+    Raises `InputError` when nothing in it is a letter or a digit.
+    """
+    folded = "".join(_fold(c) for c in unicodedata.normalize("NFC", text))
+    emoji = sum(_is_emoji(c) for c in folded)
+    broken = sum(unicodedata.category(c) in ("Cc", "Cs", "Co", "Cn") and not c.isspace() for c in folded)
+    kept = "".join(_spoken(c) for c in folded)
+    kept = re.sub(r"(?<!\.)\.\.(?!\.)", ".", kept)  # espeak reads the second of two full stops as "dot"
+    pieces = re.sub(rf"[^\W\d_]{{{LONGEST_WORD + 1},}}", lambda m: " ".join(re.findall(f".{{1,{PIECE}}}", m[0])), kept)
+    if not any(c.isalnum() or _is_named(c) for c in pieces):
+        raise InputError(f"text: nothing in {_shown(text)} can be spoken; write at least one word")
+    notes = []
+    if emoji:
+        notes.append(f"text: {emoji} emoji or pictograms are not read")
+    if broken:
+        notes.append(f"text: {broken} characters that are no text (control codes or broken Unicode) are left out")
+    if pieces != kept:
+        notes.append(f"text: words of more than {LONGEST_WORD} letters are read in pieces")
+    return Text(" ".join(pieces.split()), tuple(notes))
+
+
+def check_script(text: str, script: str, *, language: str) -> None:
+    """Refuse letters of another script than the language's *script* (ISO 15924; an unknown one allows all).
+
+    Single Greek letters pass: they are symbols. Raises `InputError` with the first letters that do not belong.
+    """
+    allowed = SCRIPTS.get(script)
+    if allowed is None:
+        return
+    for found in re.finditer(r"[^\W\d_]+", text):
+        kinds = [unicodedata.name(c, "?").split()[0] for c in found[0]]
+        foreign = [i for i, kind in enumerate(kinds) if kind not in allowed and kind not in NEUTRAL]
+        if not foreign or (len(kinds) == 1 and kinds[0] == "GREEK"):
+            continue
+        kind = kinds[foreign[0]]
+        writing = WRITING.get(kind, f"{kind.title()} letters")
+        raise InputError(
+            f"text: {_shown(found[0])} at character {found.start() + foreign[0] + 1} is written in {writing}, which language {language!r} "
+            "can't read; give the --language of the text, or write it out"
+        )
+
+
+def _fold(character: str) -> str:
+    kind = unicodedata.decomposition(character).split(" ")[0]
+    ligature = kind == "<compat>" and unicodedata.category(character) == "Ll"
+    return unicodedata.normalize("NFKC", character) if kind in FOLDED or ligature else character
+
+
+def _is_named(character: str) -> bool:
+    """Whether voices read this symbol by its name: currency, per cent, plus."""
+    return unicodedata.category(character) in ("Sc", "Sm") or character in "%&@#"
+
+
+def _is_emoji(character: str) -> bool:
+    return ord(character) > 0x2190 and unicodedata.category(character) == "So"
+
+
+def _spoken(character: str) -> str:
+    """The character; a space for one that only separates; nothing for one that only joins or styles."""
+    category = unicodedata.category(character)
+    if category == "Cf" or "\ufe00" <= character <= "\ufe0f" or "\U0001f3fb" <= character <= "\U0001f3ff":
+        return ""
+    return " " if category in ("Cc", "Cs", "Co", "Cn", "Zl", "Zp") or _is_emoji(character) else character
+
+
+def _shown(text: str) -> str:
+    return repr(text if len(text) <= 24 else text[:23] + "…")
