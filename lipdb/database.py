@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Self
 
 from lipdb import plugins
 from lipdb.errors import InputError
-from lipdb.line import CurveKey, Line
+from lipdb.line import Line
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
     from lipdb.characters.character import Character
     from lipdb.curated.tsv import Records, Row
-    from lipdb.curves.curve import Curve
+    from lipdb.curves.curve import Curve, CurveKey
     from lipdb.curves.lookup import CurveBook, Found
     from lipdb.performance import Performance
     from lipdb.phones.phoneset import PhoneSet
     from lipdb.poses import PoseSet
     from lipdb.schedule import Schedule
     from lipdb.speech.voice import Voice
-    from lipdb.store.database import Edit, Store
+    from lipdb.store import Edit, Store
 
 DEFAULT_CHARACTER = "robin"
 DEFAULT_LANGUAGE = "en"
@@ -50,7 +50,7 @@ def open(url: str | None = None, *, phonesets: str | Path | None = None) -> Data
     *url* is a file, an SQLAlchemy URL, or None for ``LIPDB_URL`` or else a file in the user's data folder. *phonesets*
     is the folder of curated text that fills a new database. Raises `StoreError`.
     """
-    from lipdb.store.database import Store
+    from lipdb.store import Store
 
     return Database(Store.open(url, phonesets=Path(phonesets) if phonesets else None))
 

@@ -6,16 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
-from lipdb.curves.curve import Curve
-from lipdb.curves.keys import format_keys, parse_keys
+from lipdb.curves.curve import Curve, CurveKey, curve_from_row
+from lipdb.curves.keys import format_keys
 from lipdb.errors import CurveError, InputError
 from lipdb.schedule import Schedule
 from lipdb.sound import Sound
 
 FORMAT = "lipdb line 1"
-
-CurveKey = tuple[str, str, str]
-"""Left common phone, right common phone, pose."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,8 +64,5 @@ class Line:
 
 
 def _curve(row: Mapping[str, str]) -> tuple[CurveKey, Curve]:
-    warp = row.get("warp", "border")
-    if warp not in ("border", "linear"):
-        raise CurveError(f"warp {warp!r} is neither border nor linear")
-    curve = Curve(parse_keys(row["keys"]), warp=warp, origin="authored", source="line")
-    return (row["left"], row["right"], row["pose"]), curve
+    whole = {"warp": "border", "origin": "authored", "source": "line", "licence": "", "author": "", "time": "", "comment": "", **row}
+    return (row["left"], row["right"], row["pose"]), curve_from_row(whole)

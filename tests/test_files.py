@@ -34,8 +34,8 @@ def test_a_folder_that_cannot_take_the_file_is_named(tmp_path: Path, name: str) 
         pass
 
 
-def test_a_full_disk_is_an_output_error_and_leaves_nothing() -> None:
+def test_a_full_disk_is_an_output_error_and_leaves_nothing(tmp_path: Path) -> None:
     full = Path("/dev/full")
-    with pytest.raises(OutputError, match="No space"), whole_file(Path("/dev/shm/lipdb-test-full.txt")), full.open("w") as file:
+    with pytest.raises(OutputError, match="No space"), whole_file(tmp_path / "a.txt"), full.open("w") as file:
         file.write("x" * 100_000)
-    assert not Path("/dev/shm/lipdb-test-full.txt").exists()
+    assert list(tmp_path.iterdir()) == []

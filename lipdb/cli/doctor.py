@@ -49,7 +49,7 @@ def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[s
 
 def _database(options: Options) -> str:
     with options.open() as db:
-        return f"{db.store.describe()}, revision {db.store.revision}"
+        return f"{db.store.where}, revision {db.store.revision}"
 
 
 def _voice(options: Options) -> str:
