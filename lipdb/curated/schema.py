@@ -115,6 +115,7 @@ def _columns(words: str, **kinds: Canonical) -> tuple[Column, ...]:
 _SOURCED = "source comment?"
 _PROVENANCE = "origin source licence author time comment?"
 _ORIGIN: dict[str, Canonical] = {"origin": _one_of(*ORIGINS), "source": _name, "licence": _name, "time": _time}
+_PHONE_KIND = _one_of("vowel", "consonant", "initial", "final", "erhua")
 _MAPPING: dict[str, Canonical] = {"phone": _name, **_ORIGIN}
 _CURVE = _columns(
     "left right pose keys? warp " + _PROVENANCE,
@@ -134,7 +135,9 @@ TABLES: tuple[Table, ...] = (
         ("phone",),
     ),
     # The common layer of the phone mapping: IPA segment to common phones.
-    Table("ipa.tsv", _columns("phone common " + _PROVENANCE, **_MAPPING), ("phone",)),
+    Table("ipa.tsv", _columns("phone xsampa? common " + _PROVENANCE, **_MAPPING), ("phone",)),
+    # Labels that are no phone in any notation: pauses, and noises during which the mouth rests.
+    Table("marks.tsv", _columns("mark meaning " + _SOURCED, mark=_name, meaning=_one_of("pause", "noise"), source=_name), ("mark",)),
     # Pose sets: order, priority (empty: none), speed limit (1/s), and whether the pose must reach its peak.
     Table(
         "poses/{pose_set}.tsv",
@@ -161,7 +164,7 @@ TABLES: tuple[Table, ...] = (
     Table("timing/{pose_set}.tsv", _columns("phone lead release " + _PROVENANCE, phone=_name, lead=_number, release=_number, **_ORIGIN), ("phone",)),
     # A language. *voice* is what the speech engine calls it, *speech* the plug-in that makes schedules from its text.
     Table("{language}/language.tsv", _columns("language name notation speech voice script " + _SOURCED, language=_name, notation=_name, source=_name), ("language",)),
-    Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, **_MAPPING), ("phone",)),
+    Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, kind=_PHONE_KIND, **_MAPPING), ("phone",)),
     Table("{language}/aliases.tsv", _columns("notation symbol phones " + _SOURCED, notation=_name, symbol=_name, source=_name), ("notation", "symbol")),
     Table("{language}/syllables.tsv", _columns("syllable initial? final ipa xsampa characters example? status " + _SOURCED, syllable=_name, source=_name), ("syllable",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),

@@ -1,0 +1,177 @@
+"""The phones of one language: what labels mean, which common phones they map to, and what to say of unknown ones."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from types import MappingProxyType
+
+from lipdb.curated.tsv import Records
+from lipdb.errors import InputError, PhonesetError, ScheduleError, UnknownSymbolError
+from lipdb.phones.articulation import NEUTRAL, classify, nearest
+from lipdb.phones.labels import read_label
+from lipdb.phones.mapping import ARTICULATION, COMMON, Mapped, Mappings, bracketed, unbracketed
+from lipdb.phones.symbols import Symbols
+from lipdb.schedule import SILENCE, Phone, Schedule
+
+_NO_LINE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+_SILENT = Mapped(SILENCE, (SILENCE,), COMMON, "silence")
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A symbol that no table knows: how often it came, the phone that is nearest to it, and why that one."""
+
+    symbol: str
+    count: int
+    proposal: str
+    reason: str
+
+
+class PhoneSet:
+    """The phones of a language as a character says them; iterating gives what each of them maps to."""
+
+    def __init__(self, language: str, symbols: Symbols, mappings: Mappings, common: frozenset[str]) -> None:
+        self.language = language
+        self.symbols = symbols
+        self.mappings = mappings
+        self.common = common
+
+    @classmethod
+    def from_records(cls, records: Records, language: str, character: str | None = None) -> PhoneSet:
+        """The phone set of *language*, with *character*'s own mappings. Raises `PhonesetError` when there is none."""
+        rows = list(records.get(f"{language}/language.tsv", {}).values())
+        if not rows:
+            known = sorted(path.split("/")[0] for path in records if path.endswith("/language.tsv"))
+            raise PhonesetError(f"no language {language!r}; there are {', '.join(known) or 'none'}")
+        common = frozenset(row["phone"] for row in records.get("common.tsv", {}).values())
+        symbols = Symbols.from_records(records, language, rows[0]["notation"])
+        return cls(language, symbols, Mappings.from_records(records, language, character), common)
+
+    def __iter__(self) -> Iterator[Mapped]:
+        return (self.mapping(phone) for phone in sorted(self.symbols.phones))
+
+    def mapping(self, phone: str, line: Mapping[str, tuple[str, ...]] = _NO_LINE) -> Mapped:
+        """What *phone* (or an IPA segment in brackets, or ``_``) maps to. Raises `PhonesetError` for any other name."""
+        found = _SILENT if phone == SILENCE else self.mappings.find(phone, line)
+        if found is None:
+            near = get_close_matches(phone, self.symbols.phones, 1)
+            raise PhonesetError(f"{self.language} has no phone {phone!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+        return found
+
+    def notation_of(self, schedule: Schedule) -> str:
+        """The notation that *schedule* is written in: the one it names, or else the one that knows most of its phones.
+
+        Of several that know as many, the language's own goes first, then the alphabet decides. Raises `InputError` for a
+        notation that the language does not read.
+        """
+        known = self.symbols.notations
+        if schedule.notation:
+            if schedule.notation not in known:
+                near = get_close_matches(schedule.notation, known, 1)
+                hint = f"did you mean {near[0]!r}?" if near else f"it reads {', '.join(known)}"
+                raise InputError(f"{self.language} reads no notation {schedule.notation!r}; {hint}")
+            return schedule.notation
+        counts = Counter(phone.symbol for phone in schedule.phones)
+        score = {name: sum(n for symbol, n in counts.items() if self.symbols.parts(symbol, name, common=False)) for name in known}
+        return max(known, key=score.__getitem__)
+
+    def resolve(
+        self, schedule: Schedule, line: Mapping[str, tuple[str, ...]] = _NO_LINE, *, allow_unknown: bool = False
+    ) -> tuple[Schedule, tuple[Unknown, ...]]:
+        """Turn the labels of a raw schedule into phones of the language with their common phones and layers.
+
+        Stress, tone and length become attributes; labels of several phones are split, each part with time by the number of
+        its common phones (in hand-checked English, vowels and consonants last alike: 78 and 80 ms). The result is in the
+        language's own notation; resolving it again changes nothing but the layers. *line* is the line's own layer.
+
+        Raises `UnknownSymbolError` listing every unknown symbol unless *allow_unknown*: they are then mapped by
+        articulation, or to the neutral vowel when nothing is known of them, never to silence. Unknown symbols are returned
+        in both cases.
+        """
+        self._check_line(line)
+        notation = self.notation_of(schedule)
+        edges, phones, missing = [schedule.edges[0]], list[Phone](), Counter[str]()
+        for phone, end in zip(schedule.phones, schedule.edges[1:], strict=True):
+            found = self._known(phone, notation, line)
+            if not found:
+                missing[phone.symbol] += 1
+                found = [self._by_articulation(phone, notation)]
+            edges += _share(edges[-1], end, found)
+            phones += found
+        unknown = tuple(self._unknown(symbol, count, notation) for symbol, count in sorted(missing.items()))
+        if unknown and not allow_unknown:
+            raise UnknownSymbolError(self._complaint(unknown, notation))
+        done = replace(schedule, edges=tuple(edges), phones=tuple(phones), language=self.language, notation=self.symbols.own)
+        return done, unknown
+
+    def _known(self, phone: Phone, notation: str, line: Mapping[str, tuple[str, ...]]) -> list[Phone]:
+        """The phones that one label stands for, with the attributes on those that carry them; none when it is unknown."""
+        mapped = [self.mapping(part, line) for part in self.symbols.parts(phone.symbol, notation)]
+        label = read_label(phone.symbol, notation)
+        carriers = [m.phone for m in mapped if m.kind not in ("consonant", "initial", "silence")] or [m.phone for m in mapped]
+        found = []
+        for m in mapped:
+            part = replace(phone, symbol=m.phone, common=m.common, layer=m.layer)
+            if m.phone in carriers and m.phone != SILENCE:
+                part = replace(part, tone=label.tone or phone.tone, stress=label.stress or phone.stress, long=label.long or phone.long)
+            elif len(mapped) > 1 or m.phone == SILENCE:
+                part = replace(part, tone=0, stress=0, long=False)
+            found.append(part)
+        return found
+
+    def _by_articulation(self, phone: Phone, notation: str) -> Phone:
+        segment = self._segment(phone.symbol, notation)
+        guess = classify(segment)
+        common = tuple(c for c in guess.common if c in self.common) if guess else ()
+        return replace(phone, symbol=bracketed(segment), common=common or (NEUTRAL,), layer=ARTICULATION)
+
+    def _segment(self, symbol: str, notation: str) -> str:
+        """*symbol* as an IPA segment: through X-SAMPA where the notation is that, else as it is written."""
+        form = read_label(symbol, notation).forms[-1]
+        return unbracketed(symbol) or self.symbols.segment_of(form, notation) or form
+
+    def _unknown(self, symbol: str, count: int, notation: str) -> Unknown:
+        segment = self._segment(symbol, notation)
+        guess = classify(segment)
+        table = {m.phone: m.ipa for m in self}
+        if guess and (near := nearest(segment, table)):
+            return Unknown(symbol, count, near[0], f"by articulation it is {' '.join(guess.common)}: {guess.reason}")
+        alike = get_close_matches(symbol, self.symbols.aliases.get(notation, {}), 1)
+        if alike:
+            return Unknown(symbol, count, " ".join(self.symbols.aliases[notation][alike[0]]), f"written nearly as {alike[0]!r}")
+        return Unknown(symbol, count, "", f"nothing is known of it; --allow-unknown takes the neutral vowel {NEUTRAL}")
+
+    def _complaint(self, unknown: tuple[Unknown, ...], notation: str) -> str:
+        each = (
+            f"{u.symbol!r} ({u.count}x" + (f", nearest {u.proposal!r}, {u.reason})" if u.proposal else f", {u.reason})") for u in unknown
+        )
+        return (
+            f"{self.language} does not know {len(unknown)} symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: {'; '.join(each)}. "
+            f"Add rows to {self.language}/aliases.tsv, or use --allow-unknown to map by articulation"
+        )
+
+    def _check_line(self, line: Mapping[str, tuple[str, ...]]) -> None:
+        for phone, common in line.items():
+            wrong = [name for name in common if name not in self.common]
+            if wrong or not common:
+                near = get_close_matches(wrong[0], self.common, 1) if wrong else []
+                what = f"common phone {wrong[0]!r} does not exist" if wrong else "there is no common phone for it"
+                raise InputError(f"the line's mapping of {phone!r}: {what}" + (f"; did you mean {near[0]!r}?" if near else ""))
+            if phone not in self.symbols.phones and not unbracketed(phone):
+                near = get_close_matches(phone, self.symbols.phones, 1)
+                raise InputError(
+                    f"the line's mapping: {self.language} has no phone {phone!r}" + (f"; did you mean {near[0]!r}?" if near else "")
+                )
+
+
+def _share(start: int, end: int, phones: list[Phone]) -> list[int]:
+    """The ends of *phones* between *start* and *end* (µs), each as long as it has common phones."""
+    sizes = [len(phone.common) for phone in phones]
+    if end - start < sum(sizes):
+        raise ScheduleError(
+            f"schedule: {phones[0].symbol!r} at {start} µs lasts {end - start} µs, too short for {sum(sizes)} common phones"
+        )
+    return [start + (end - start) * sum(sizes[: k + 1]) // sum(sizes) for k in range(len(sizes))]
