@@ -67,8 +67,12 @@ def _vowel(letter: Letter) -> Verdict:
     if not letter.rounded:
         if close:
             return "ih", 0.95 if letter.back < 0.9 else 0.7, "close and unrounded"
-        if letter.back == 1 and letter.height == 1:
-            return "aa", 1.0, "open at the back"
+        if letter.height == 1:
+            return (
+                "aa",
+                1.0 if letter.back else 0.7,
+                "the jaw wide open" + ("" if letter.back else "; where /a/ is written the vowel is mostly central"),
+            )
         if letter.back < 0.9 and (mid or (letter.back == 0 and letter.height < 0.75)):
             return "eh", 0.95, "mid and unrounded, at the front"
         return "ah", 0.9, "between mid and open, unrounded"

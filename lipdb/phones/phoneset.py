@@ -149,7 +149,7 @@ class PhoneSet:
             f"{u.symbol!r} ({u.count}x" + (f", nearest {u.proposal!r}, {u.reason})" if u.proposal else f", {u.reason})") for u in unknown
         )
         return (
-            f"{self.language} does not know {len(unknown)} symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: {'; '.join(each)}. "
+            f"{self.language}: {len(unknown)} unknown symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: {'; '.join(each)}. "
             f"Add rows to {self.language}/aliases.tsv, or use --allow-unknown to map by articulation"
         )
 
