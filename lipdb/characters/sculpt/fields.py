@@ -85,12 +85,15 @@ def capsule(points: Floats, start: Point, end: Point, radius_start: float, radiu
     return np.asarray(np.linalg.norm(points - (a + t[..., None] * along), axis=-1) - (radius_start + (radius_end - radius_start) * t))
 
 
-def raycast(distance: Distance, origin: Point, directions: Floats, *, far: float = 1.8, steps: int = 26) -> Floats:
-    """How far along unit *directions* from *origin* the body's outermost surface lies, marching inwards from *far*."""
+def raycast(distance: Distance, origin: Point, directions: Floats, *, begin: float = 1.8, steps: int = 26) -> Floats:
+    """How far along unit *directions* from *origin* the body's surface lies.
+
+    The march starts *begin* away: outside of the body it finds the outermost surface, inside of it the nearest way out.
+    """
     start = np.asarray(origin, float)
-    t = np.full(len(directions), far)
+    t = np.full(len(directions), begin)
     for _ in range(steps):
-        t = np.clip(t - 0.85 * distance(start + t[:, None] * directions), 0.02, far)
+        t = np.maximum(t - 0.85 * distance(start + t[:, None] * directions), 0.02)
     return t
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from lipdb.characters.mesh import Floats, Ints, vertex_normals
@@ -28,18 +30,18 @@ def outward(positions: Floats, faces: Ints, directions: Floats) -> Ints:
     return faces if facing > 0 else faces[:, ::-1]
 
 
-def ball(rows: int, columns: int, *, dense: float = 1.0) -> tuple[Floats, Ints, Floats]:
+def ball(rings: Sequence[float] | Floats, columns: int) -> tuple[Floats, Ints, Floats]:
     """A unit sphere with its poles on the z axis: positions, faces, and each point's angle from +z.
 
-    *dense* above 1 crowds the rows towards +z.
+    *rings* are the angles between the poles at which points stand.
     """
-    polar = np.pi * np.linspace(0, 1, rows) ** dense
     around = np.linspace(0, 2 * np.pi, columns, endpoint=False)
-    t, p = np.meshgrid(polar[1:-1], around, indexing="ij")
-    rings = np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], -1).reshape(-1, 3)
-    positions = np.concatenate([rings, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
-    last, n = np.arange(columns) + (rows - 3) * columns, len(rings)
-    faces = np.concatenate([grid_faces(rows - 2, columns), fan_faces(n, np.arange(columns)), fan_faces(n + 1, last)[:, ::-1]])
+    t, p = np.meshgrid(np.asarray(rings, float), around, indexing="ij")
+    sides = np.stack([np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)], -1).reshape(-1, 3)
+    positions = np.concatenate([sides, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
+    n = len(sides)
+    last = np.arange(columns) + n - columns
+    faces = np.concatenate([grid_faces(len(rings), columns), fan_faces(n, np.arange(columns)), fan_faces(n + 1, last)[:, ::-1]])
     faces[: -2 * columns] = faces[: -2 * columns, ::-1]
     return positions, outward(positions, faces, positions), np.concatenate([t.ravel(), [0.0, np.pi]])
 

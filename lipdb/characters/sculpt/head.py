@@ -25,11 +25,11 @@ from lipdb.characters.sculpt.fields import (
 )
 from lipdb.characters.sculpt.slit import Bag, MouthSurface, Slit, with_bag
 
-ORIGIN = np.array([0.0, -0.12, -0.05])
-MOUTH = np.array([0.0, -0.425, 0.82])
-EYE, EYE_RADIUS = np.array([0.300, 0.095, 0.660]), 0.205
+ORIGIN = np.array([0.0, -0.30, -0.02])
+MOUTH = np.array([0.0, -0.432, 0.82])
+EYE, EYE_RADIUS = np.array([0.312, 0.095, 0.655]), 0.205
 LID_RADIUS = EYE_RADIUS * 1.09
-HALF_WIDTH = 0.30
+HALF_WIDTH = 0.325
 SKIN, LIP, INSIDE = srgb("#e9b89c"), srgb("#c4696a"), srgb("#7d3135")
 LIP_UPPER, LIP_LOWER = 0.066, 0.086
 
@@ -52,12 +52,12 @@ def form(points: Floats) -> Floats:
     head = union(head, ellipsoid(points, (0, 0.36, 0.60), (0.46, 0.13, 0.18)), 0.18)  # brow
     head = union(head, ellipsoid(points, (0, -0.44, 0.66), (0.27, 0.20, 0.20)), 0.14)  # round of the teeth
     head = cut(head, sphere(both, (0.30, 0.10, 0.98), 0.20), 0.16)  # eye sockets
-    head = union(head, sphere(both, EYE, LID_RADIUS), 0.07)  # lids
-    head = union(head, capsule(points, (0, 0.20, 0.76), (0, -0.09, 0.93), 0.055, 0.075), 0.12)  # bridge of the nose
-    head = union(head, ellipsoid(points, (0, -0.125, 0.965), (0.088, 0.075, 0.085)), 0.06)  # its tip
-    head = union(head, ellipsoid(both, (0.092, -0.150, 0.885), (0.058, 0.050, 0.070)), 0.05)  # its wings
-    head = cut(head, ellipsoid(both, (0.046, -0.205, 0.930), (0.028, 0.026, 0.048)), 0.03)  # nostrils
-    return cut(head, capsule(points, (0, -0.25, 0.965), (0, -0.31, 0.955), 0.018, 0.018), 0.05)  # philtrum
+    head = union(head, sphere(both, EYE, LID_RADIUS), 0.10)  # lids
+    head = union(head, capsule(points, (0, 0.20, 0.74), (0, -0.09, 0.91), 0.050, 0.070), 0.11)  # bridge of the nose
+    head = union(head, ellipsoid(points, (0, -0.120, 0.945), (0.086, 0.076, 0.080)), 0.06)  # its tip
+    head = union(head, capsule(points, (0, -0.14, 0.91), (0, -0.205, 0.84), 0.055, 0.050), 0.07)  # and what is below it
+    head = union(head, ellipsoid(both, (0.085, -0.150, 0.870), (0.056, 0.050, 0.068)), 0.05)  # its wings
+    return cut(head, capsule(points, (0, -0.26, 0.955), (0, -0.31, 0.950), 0.016, 0.016), 0.05)  # philtrum
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +69,7 @@ class HeadSurface:
     colours: Floats
 
 
-def head_surface(rows: int = 74, columns: int = 104) -> HeadSurface:
+def head_surface(rows: int = 72, columns: int = 100) -> HeadSurface:
     """Robin's head, mouth closed."""
     slit = Slit(ORIGIN, MOUTH - ORIGIN, HALF_WIDTH, rows, columns)
     bare = slit.wrap(form)
@@ -109,14 +109,14 @@ def skin_colour(points: Floats, normals: Floats) -> Floats:
     red = 0.50 * near(points, (0.38, -0.20, 0.60), (0.15, 0.13, 0.2)) + 0.40 * near(points, (0, -0.13, 1.0), (0.1, 0.09, 0.1))
     red += 0.15 * near(points, (0, -0.80, 0.7), (0.13, 0.1, 0.2))
     colours = tint(SKIN, srgb("#dd7f6c"), np.clip(red, 0, 1) * 0.75)
-    colours = tint(colours, srgb("#c48b78"), near(points, (0.30, 0.09, 0.80), (0.17, 0.13, 0.2)) * 0.35)
+    colours = tint(colours, srgb("#c48b78"), near(points, (0.30, 0.09, 0.80), (0.17, 0.13, 0.2)) * 0.20)
     light = openness(form, points, normals)[:, None]
-    return np.asarray(colours * mix(1, light, 0.5) * mix(np.array([0.93, 0.80, 0.76]), np.ones(3), light))
+    return np.asarray(colours * mix(1, light, 0.4) * mix(np.array([0.93, 0.80, 0.76]), np.ones(3), light))
 
 
 def _skin(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Floats:
     colours = skin_colour(bare, normals)
     colours = tint(colours, LIP, smoothstep(1.10, 0.93, lip) * smoothstep(-0.2, 0.15, taper) * 0.9)
     colours = tint(colours, INSIDE, np.exp(-((lip / 0.20) ** 2)) * taper * 0.7)
-    nostril = np.clip(1 - (ellipsoid(mirrored(bare), (0.046, -0.205, 0.930), (0.032, 0.032, 0.048)) + 0.02) / 0.03, 0, 1)
-    return tint(colours, srgb("#6b2f2a"), nostril * 0.8)
+    nostril = near(bare, (0.044, -0.198, 0.905), (0.020, 0.013, 0.035))
+    return tint(colours, srgb("#6b2f2a"), nostril * 0.85)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lipdb.characters.mesh import Floats
-from lipdb.characters.sculpt.fields import mix, smoothstep
+from lipdb.characters.sculpt.fields import mix, near, smoothstep
 from lipdb.characters.sculpt.head import HeadSurface
 from lipdb.characters.sculpt.slit import MouthSurface
 
@@ -100,4 +100,27 @@ def mouth_shapes(head: HeadSurface) -> dict[str, Floats]:
         "PBM": vectors(0.02 * x * lips, pressed_y, pressed_z * (1 - 0.4 * corner), n),
         "FV": vectors(0.02 * x * lips, 0.040 * upper * lips, 0, n) + tucked(head, edge=-0.436, front=(0.262, 0.292, 0.508)),
         "wide": vectors(0.22 * x * lips + 0.07 * x * (around - lips), stretched_y, -0.055 * lips * corner - 0.020 * lips, n),
+    }
+
+
+def skin_shapes(points: Floats, fade: Floats) -> dict[str, Floats]:
+    """Displacements of the shapes of the whole face, for skin and for what sits on it; *fade* of them at each point.
+
+    They depend on the place alone, so that head, lids and brows move together.
+    """
+    n, side, front = len(points), np.sign(points[:, 0]), (points[:, 2] > 0.2) * fade
+    corner = near(points, (0.29, -0.42, 0.72), (0.15, 0.15, 0.3)) * front
+    cheek = near(points, (0.40, -0.17, 0.66), (0.13, 0.13, 0.3)) * front
+    brow = near(points, (0.30, 0.43, 0.70), (0.21, 0.12, 0.4)) * front
+    middle = np.exp(-0.5 * (points[:, 0] / 0.2) ** 2)
+    squint = near(points, (0.31, -0.06, 0.80), (0.15, 0.07, 0.3)) * front
+    lip = near(points, (0, -0.43, 0.86), (0.14, 0.12, 0.2)) * front
+    return {
+        "smile": vectors(
+            side * 0.060 * corner, 0.070 * corner + 0.045 * cheek - 0.006 * lip + 0.012 * squint, 0.035 * cheek - 0.035 * corner, n
+        ),
+        "frown": vectors(-side * 0.010 * corner, -0.075 * corner + 0.020 * lip, -0.005 * corner, n),
+        "brow_up": vectors(0, 0.085 * brow, 0.005 * brow, n),
+        "brow_down": vectors(-side * 0.025 * brow * middle, -0.055 * brow * (0.5 + 0.5 * middle) - 0.01 * brow, 0.020 * brow * middle, n),
+        "blink": vectors(0, 0.010 * squint, 0.004 * squint, n),
     }
