@@ -220,11 +220,7 @@ def _missing(records: Records, names: Names) -> Iterator[Finding]:
         table = table_of(path)
         if table and table.pattern == "poses/{pose_set}.tsv" and (name := path[6:-4]) not in names.sets:
             yield Finding(path, 1, 1, f"pose set {name!r} has no row in poses/sets.tsv")
-        if (
-            table
-            and table.pattern.startswith("characters/{character}/")
-            and not records.get(f"{path.rsplit('/curves/')[0].rsplit('/', 1)[0]}/character.tsv")
-        ):
+        if path.startswith("characters/") and not records.get("/".join([*path.split("/")[:2], "character.tsv"])):
             yield Finding(path, 1, 1, "this character has no character.tsv")
     yield from _twice(records, "ipa.tsv", "xsampa", "X-SAMPA")
     for path in records:

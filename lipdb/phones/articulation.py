@@ -211,14 +211,22 @@ def _between(one: Letter, other: Letter) -> float:
     return sum(weight * abs(a.get(name, 0.0) - b.get(name, 0.0)) for name, weight in _WEIGHTS.items())
 
 
+def _released(segment: str) -> tuple[Letter, ...]:
+    """The letters of *segment* without a stop that only opens into a fricative of its own place."""
+    letters, tied = read_segment(segment)
+    if len(letters) > 1 and letters[0].place not in _LIPS and _affricate(letters[0], letters[1], tied):
+        return letters[1:]
+    return letters
+
+
 @cache
 def distance(one: str, other: str) -> float | None:
     """How different two IPA segments look, 0 for the same; None when either has no letter of the IPA chart.
 
-    Segments of several letters are compared at their starts and at their ends; each letter that one has more adds a little,
+    Of an affricate the release is seen. Segments of several letters are compared at their starts and at their ends; each letter that one has more adds a little,
     so a vowel is nearer to a vowel than to a diphthong.
     """
-    a, b = read_segment(one)[0], read_segment(other)[0]
+    a, b = _released(one), _released(other)
     if not a or not b:
         return None
     return round((_between(a[0], b[0]) + _between(a[-1], b[-1])) / 2 + _STEP * abs(len(a) - len(b)), 6)
