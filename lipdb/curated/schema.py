@@ -40,7 +40,8 @@ def _number(cell: str) -> str:
         raise ValueError(f"{cell!r} is not a number") from None
     if value != value or value in (float("inf"), float("-inf")):
         raise ValueError(f"{cell!r} is not a finite number")
-    return f"{value:.4f}".rstrip("0").rstrip(".") if value else "0"
+    text = f"{value:.4f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
 
 
 def _count(cell: str) -> str:
@@ -167,6 +168,8 @@ TABLES: tuple[Table, ...] = (
     Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, kind=_PHONE_KIND, **_MAPPING), ("phone",)),
     Table("{language}/aliases.tsv", _columns("notation symbol phones " + _SOURCED, notation=_name, symbol=_name, source=_name), ("notation", "symbol")),
     Table("{language}/syllables.tsv", _columns("syllable initial? final ipa xsampa characters example? status " + _SOURCED, syllable=_name, source=_name), ("syllable",)),
+    # How words are read where the language's own reader can't know: pinyin with tone numbers for Mandarin.
+    Table("{language}/readings.tsv", _columns("word reading " + _SOURCED, word=_name, source=_name), ("word",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
     # A character. *mesh* is `built:NAME` for the shipped ones, or a file in the character's folder.
     Table("characters/{character}/character.tsv", _columns("character pose_set drawing title " + _SOURCED, character=_name, pose_set=_name, source=_name), ("character",)),

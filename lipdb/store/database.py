@@ -17,10 +17,10 @@ import sqlalchemy as sa
 from lipdb.curated.folder import read_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Finding, Key, Row
-from lipdb.paths import phonesets_dir
+from lipdb.paths import home, phonesets_dir
 from lipdb.store.cells import nested, records_from
 from lipdb.store.edit import Edit
-from lipdb.store.engines import database_url, is_file, make_engine, place_of, reading, writing
+from lipdb.store.engines import database_url, description, is_file, make_engine, place_of, reading, writing
 from lipdb.store.failures import plain_errors
 from lipdb.store.history import Change, Revision, difference, read_changes, read_revisions, require_revision, state_at
 from lipdb.store.merge import Merge
@@ -85,6 +85,15 @@ class Store:
     def close(self) -> None:
         """Close every connection. The store may be used again."""
         self._reader.dispose()
+
+    @property
+    def characters_folder(self) -> Path:
+        """Where the files of characters that people add are kept: beside the database file, else in the user's data folder."""
+        return (Path(self.where).parent if is_file(self._url) else home()) / "characters"
+
+    def describe(self) -> str:
+        """Which database this is, in a line: where, what kind, how it guards against crashes, its schema."""
+        return f"{self.where} ({description(self._reader)}, schema {SCHEMA})"
 
     # Reading
 

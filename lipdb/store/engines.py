@@ -93,3 +93,11 @@ def choose_journal(engine: sa.Engine) -> None:
             connection.cursor().execute("PRAGMA journal_mode=WAL")
         finally:
             connection.close()
+
+
+def description(engine: sa.Engine) -> str:
+    """The kind of database: its version, and for a SQLite file its journal."""
+    if engine.dialect.name != "sqlite":
+        return engine.dialect.name
+    journal = "write-ahead log" if WAL_IS_SAFE else "rollback journal: the log of this SQLite can damage files"
+    return f"SQLite {sqlite3.sqlite_version}, {journal}"
