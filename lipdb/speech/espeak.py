@@ -72,7 +72,7 @@ class EspeakVoice:
         """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""
         text, notes = self._checked(text)
         utterance = libespeak.speak(text, self.name)
-        marks = _without_short_pauses(utterance.marks, utterance.sound.rate)
+        marks = without_short_pauses(utterance.marks, utterance.sound.rate)
         words, word_of = words_of(text, marks)
         phones = [Phone(SILENCE) if not m.label else self._phone(m.label, w) for m, w in zip(marks, word_of, strict=True)]
         schedule = lay_out(mended_edges(marks, utterance.sound), phones, language=self.language, notation=NOTATION, words=words)
@@ -144,7 +144,7 @@ def mended_edges(marks: tuple[Mark, ...], sound: Sound) -> NDArray[np.float64]:
     return restore_closures(share_swallowed(edges), stops, pauses, sound.samples, sound.rate)
 
 
-def _without_short_pauses(marks: tuple[Mark, ...], rate: int) -> tuple[Mark, ...]:
+def without_short_pauses(marks: tuple[Mark, ...], rate: int) -> tuple[Mark, ...]:
     """*marks* without language switches and without pauses too short for a mouth to close; the mark in front lasts on."""
     kept: list[Mark] = []
     for mark in _joined_pauses(marks):

@@ -23,7 +23,7 @@ from ctypes.util import find_library
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,7 +34,7 @@ from lipdb.sound import Sound
 AUDIO_SYNCHRONOUS = 2
 INITIALIZE_EVENTS, INITIALIZE_IPA, INITIALIZE_DONT_EXIT = 0x1, 0x2, 0x8000
 CHARS_UTF8, PHONEMES_IN, END_PAUSE = 0x1, 0x100, 0x1000
-TRACE_MNEMONIC, TRACE_IPA = 0x1, 0x2
+TRACE_IPA = 0x2
 EVENT_END, EVENT_WORD, EVENT_PHONEME = 0, 1, 7
 POSITION_CHARACTER = 1
 SEED = 1
@@ -108,14 +108,13 @@ def espeak_version() -> str:
         return str(library.espeak_Info(None).decode().split()[0]) + package
 
 
-def speak(text: str, voice: str, *, labels: Literal["ipa", "mnemonic"] = "ipa", phonemes: bool = False) -> Utterance:
+def speak(text: str, voice: str, *, phonemes: bool = False) -> Utterance:
     """Synthesise *text* with espeak's *voice*, after 0.25 s of silence, in which a mouth prepares, and before 0.3 s.
 
     With *phonemes*, ``[[...]]`` in the text is espeak's own phoneme notation; without, it is plain text. The same
     arguments give the same samples and marks. Raises `MissingToolError` and `PhonesetError` (no such voice).
     """
-    ipa = labels == "ipa"
-    options = INITIALIZE_EVENTS | INITIALIZE_DONT_EXIT | (INITIALIZE_IPA if ipa else 0)
+    options = INITIALIZE_EVENTS | INITIALIZE_IPA | INITIALIZE_DONT_EXIT
     flags = CHARS_UTF8 | END_PAUSE | (PHONEMES_IN if phonemes else 0)
     with _private_library() as (library, data):
         rate = library.espeak_Initialize(AUDIO_SYNCHRONOUS, 0, data, options)
@@ -125,7 +124,7 @@ def speak(text: str, voice: str, *, labels: Literal["ipa", "mnemonic"] = "ipa", 
             if library.espeak_SetVoiceByName(voice.encode()) != 0:
                 raise PhonesetError(f"espeak-ng has no voice {voice!r}; mend the column voice of the language's language.tsv")
             library.espeak_ng_SetRandSeed(ctypes.c_long(SEED))
-            with _tracing(library, TRACE_IPA if ipa else TRACE_MNEMONIC) as clauses:
+            with _tracing(library) as clauses:
                 samples, events = _synthesise(library, text.encode("utf-8"), flags)
         finally:
             library.espeak_Terminate()
@@ -189,7 +188,7 @@ def _labels(clause: str) -> list[str]:
 
 
 @contextmanager
-def _tracing(library: ctypes.CDLL, mode: int) -> Iterator[list[str]]:
+def _tracing(library: ctypes.CDLL) -> Iterator[list[str]]:
     """The phonemes of every clause that is spoken in the block, separated by `SEPARATOR` and spaces."""
     clauses: list[str] = []
 
@@ -203,7 +202,7 @@ def _tracing(library: ctypes.CDLL, mode: int) -> Iterator[list[str]]:
     # The library writes each clause to a C stream too; one that goes nowhere keeps the terminal clean.
     stream = ctypes.c_void_p(libc.fopen(os.devnull.encode(), b"w"))
     try:
-        library.espeak_SetPhonemeTrace(ctypes.c_int(mode | ord(SEPARATOR) << 8), stream)
+        library.espeak_SetPhonemeTrace(ctypes.c_int(TRACE_IPA | ord(SEPARATOR) << 8), stream)
         library.espeak_SetPhonemeCallback(callback)
         yield clauses
     finally:

@@ -28,7 +28,7 @@ SCRIPTS: dict[str, tuple[str, ...]] = {
     "Thai": ("THAI",),
 }
 # Letters that belong to no script or that every voice reads by their name.
-NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "DEGREE", "SUPERSCRIPT")
+NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "DEGREE", "SUPERSCRIPT", "IDEOGRAPHIC")
 FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>")
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
 
