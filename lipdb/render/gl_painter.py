@@ -25,6 +25,7 @@ class GLPainter:
         self._vertices = np.concatenate([mesh, _wall(camera, width / height)]).astype(np.float32)
         corner = len(morph.positions)
         self._faces = np.concatenate([morph.faces, [[corner, corner + 1, corner + 2], [corner, corner + 2, corner + 3]]])
+        self._matrix, self._size = camera.projection(width / height), np.array([width, height])
         on_gl_thread(self._open, camera, width, height)
 
     def _open(self, camera: Camera, width: int, height: int) -> None:
@@ -45,16 +46,32 @@ class GLPainter:
 
     def paint(self, positions: Floats, normals: Floats) -> NDArray[np.uint8]:
         """The picture of these vertices, ``(height, width, 3)`` sRGB."""
-        return on_gl_thread(self._paint, positions, normals)
+        new = np.column_stack([positions, normals])
+        changed = (self._vertices[:-4, :6] != new).any(axis=1)
+        rows = self._faces[:-2][changed[self._faces[:-2]].any(axis=1)].ravel()
+        box = self._box(np.concatenate([self._vertices[rows, _POSITION], positions[rows]])) if len(rows) else (0, 0, 0, 0)
+        self._vertices[:-4, :6] = new
+        return on_gl_thread(self._paint, box)
 
-    def _paint(self, positions: Floats, normals: Floats) -> NDArray[np.uint8]:
-        from OpenGL.GL import GL_ARRAY_BUFFER, glBindBuffer, glBufferSubData
+    def _box(self, points: Floats) -> tuple[int, int, int, int]:
+        """The rectangle of pixels round *points*, as OpenGL has it: left, bottom, width, height."""
+        clip = points @ self._matrix[:, :3].T + self._matrix[:, 3]
+        pixels = (clip[:, :2] / clip[:, 3:] + 1) / 2 * self._size
+        low = np.clip(np.floor(pixels.min(axis=0)) - 2, 0, self._size).astype(int)
+        high = np.clip(np.ceil(pixels.max(axis=0)) + 2, 0, self._size).astype(int)
+        return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])
 
-        self._vertices[:-4, _POSITION], self._vertices[:-4, _NORMAL] = positions, normals
-        glBindBuffer(GL_ARRAY_BUFFER, self._primitive._buffers[0])
-        glBufferSubData(GL_ARRAY_BUFFER, 0, self._vertices.nbytes, self._vertices)
-        glBindBuffer(GL_ARRAY_BUFFER, 0)
+    def _paint(self, box: tuple[int, int, int, int]) -> NDArray[np.uint8]:
+        from OpenGL import GL
+
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._primitive._buffers[0])
+        GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, self._vertices.nbytes, self._vertices)
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, 0)
+        # What changes from one picture to the next is mostly the mouth: the rest stands in the frame buffer already.
+        GL.glEnable(GL.GL_SCISSOR_TEST)
+        GL.glScissor(*box)
         picture: NDArray[np.uint8] = self._renderer.render(self._scene, pyrender().RenderFlags.OFFSCREEN)
+        GL.glDisable(GL.GL_SCISSOR_TEST)
         return picture
 
     def close(self) -> None:

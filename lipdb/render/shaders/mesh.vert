@@ -13,7 +13,7 @@ out vec4 surface;
 out vec2 finish;
 
 void main() {
-    gl_Position = P * V * vec4(position, 1.0);
+    gl_Position = P * (V * vec4(position, 1.0));
     point = position;
     direction_out = normal;
     surface = color_0;
