@@ -223,8 +223,8 @@ def _released(segment: str) -> tuple[Letter, ...]:
 def distance(one: str, other: str) -> float | None:
     """How different two IPA segments look, 0 for the same; None when either has no letter of the IPA chart.
 
-    Of an affricate the release is seen. Segments of several letters are compared at their starts and at their ends; each letter that one has more adds a little,
-    so a vowel is nearer to a vowel than to a diphthong.
+    Of an affricate the release is seen. Segments of several letters are compared at their starts and at their ends; each
+    letter that one has more adds a little, so a vowel is nearer to a vowel than to a diphthong.
     """
     a, b = _released(one), _released(other)
     if not a or not b:
