@@ -32,6 +32,8 @@ def database_url(place: str | Path | None = None) -> sa.URL:
         raise StoreError(f"{text.split('@')[-1]}: not the address of a database; give a file, or postgresql://user@host/name") from error
     if url.drivername in ("postgres", "postgresql"):
         return url.set(drivername="postgresql+psycopg")
+    if url.get_backend_name() == "sqlite" and url.database in (None, "", ":memory:"):
+        raise StoreError(f"{text}: a database in memory would be empty for every connection; give a file")
     return url
 
 
@@ -42,7 +44,7 @@ def place_of(url: sa.URL) -> str:
 
 def is_file(url: sa.URL) -> bool:
     """Whether *url* is a SQLite file."""
-    return url.get_backend_name() == "sqlite" and bool(url.database) and url.database != ":memory:"
+    return url.get_backend_name() == "sqlite"
 
 
 def make_engine(url: sa.URL, *, foreign_keys: bool = True) -> sa.Engine:
