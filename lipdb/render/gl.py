@@ -48,8 +48,7 @@ def backend() -> str:
     wanted = os.environ.get("LIPDB_GL", "")
     if wanted not in ("", "egl", "osmesa", "numpy"):
         raise MissingToolError(f"LIPDB_GL={wanted}: there is no such backend; choose egl, osmesa or numpy")
-    names = [wanted] if wanted else ["egl", "osmesa", "numpy"]
-    chosen = next((name for name in names if _is_here(name)), None)
+    chosen = next((name for name in available() if wanted in ("", name)), None)
     if chosen is None:
         raise MissingToolError(f"LIPDB_GL={wanted}: its library is not here; {HOW_TO_MEND}, or unset LIPDB_GL")
     if chosen == "numpy" and os.environ.get("LIPDB_REQUIRE_GL") == "1":
@@ -57,10 +56,11 @@ def backend() -> str:
     return chosen
 
 
-def _is_here(name: str) -> bool:
-    if name == "egl":
-        return _egl_device() is not None
-    return name == "numpy" or _osmesa_library() is not None
+def available() -> tuple[str, ...]:
+    """The backends that this machine has, best first; numpy is always the last."""
+    egl = ("egl",) if _egl_device() is not None else ()
+    osmesa = ("osmesa",) if _osmesa_library() is not None else ()
+    return (*egl, *osmesa, "numpy")
 
 
 @cache
@@ -89,19 +89,18 @@ def _egl_device() -> int | None:
 
 @cache
 def _osmesa_library() -> str | None:
-    """The path or name of a libOSMesa that loads: the system's, or the one inside the wheel `lavavu-osmesa`."""
+    """The path or name of libOSMesa: the system's, or the one inside the wheel `lavavu-osmesa`."""
+    system = ctypes.util.find_library("OSMesa")
+    return system or next((path for path in _wheel_libraries() if "/libOSMesa" in path), None)
+
+
+def _wheel_libraries() -> list[str]:
     from importlib.metadata import PackageNotFoundError, files
 
-    system = ctypes.util.find_library("OSMesa")
-    if system:
-        return system
     try:
-        packed = [file for file in files("lavavu-osmesa") or [] if ".libs/" in str(file)]
+        return [str(file.locate()) for file in files("lavavu-osmesa") or [] if ".libs/" in str(file)]
     except PackageNotFoundError:
-        return None
-    paths = [str(file.locate()) for file in packed]
-    _load_together(paths)
-    return next((path for path in paths if "/libOSMesa" in path and _loads(path)), None)
+        return []
 
 
 def _loads(path: str) -> bool:
@@ -124,6 +123,9 @@ def _load_together(paths: list[str]) -> None:
 
 def _mend_osmesa(library: str) -> None:
     """Let PyOpenGL find *library*, and give it the calls that its 3.1.0 lacks for OSMesa."""
+    # Only now: loaded beside EGL's, its LLVM could get in the way.
+    if library in _wheel_libraries():
+        _load_together(_wheel_libraries())
     find = ctypes.util.find_library
     ctypes.util.find_library = lambda name: library if name == "OSMesa" else find(name)
     try:
