@@ -20,7 +20,7 @@ from lipdb.curated.tsv import Finding, Key, Row
 from lipdb.paths import home, phonesets_dir
 from lipdb.store.cells import nested, records_from
 from lipdb.store.edit import Edit
-from lipdb.store.engines import database_url, description, is_file, make_engine, place_of, reading, writing
+from lipdb.store.engines import database_url, description, file_exists, is_file, make_engine, place_of, reading, writing
 from lipdb.store.failures import plain_errors
 from lipdb.store.history import Change, Revision, difference, read_changes, read_revisions, require_revision, state_at
 from lipdb.store.merge import Merge
@@ -244,7 +244,7 @@ class Store:
 
     def _schema(self) -> str:
         # SQLite would make a missing file; reading must not.
-        if is_file(self._url) and not Path(self.where).exists():
+        if not file_exists(self._url):
             return ""
         with self._reading() as connection:
             return schema_of(connection, self.where)

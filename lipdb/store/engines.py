@@ -16,6 +16,13 @@ BUSY_MILLISECONDS = 5000
 # SQLite 3.7.0 to 3.51.2 can damage a database in WAL mode when its log is reset while another program writes.
 WAL_IS_SAFE = sqlite3.sqlite_version_info >= (3, 51, 3)
 WRITER_LOCK = 0x6C697064  # "lipd": PostgreSQL's advisory lock that writers take in turn.
+_DRIVERS = {
+    "sqlite": "sqlite",
+    "postgres": "postgresql+psycopg",
+    "postgresql": "postgresql+psycopg",
+    "postgresql+psycopg": "postgresql+psycopg",
+}
+_SQLITE_HEADER = b"SQLite format 3\0"
 
 
 def database_url(place: str | Path | None = None) -> sa.URL:
@@ -26,15 +33,17 @@ def database_url(place: str | Path | None = None) -> sa.URL:
     text = str(place or os.environ.get("LIPDB_URL") or home() / DATABASE)
     if "://" not in text:
         return sa.URL.create("sqlite", database=str(Path(text).expanduser().absolute()))
+    shown = text.rpartition("@")[2]
     try:
         url = sa.make_url(text)
-    except sa.exc.ArgumentError as error:
-        raise StoreError(f"{text.split('@')[-1]}: not the address of a database; give a file, or postgresql://user@host/name") from error
-    if url.drivername in ("postgres", "postgresql"):
-        return url.set(drivername="postgresql+psycopg")
-    if url.get_backend_name() == "sqlite" and url.database in (None, "", ":memory:"):
-        raise StoreError(f"{text}: a database in memory would be empty for every connection; give a file")
-    return url
+    except (sa.exc.ArgumentError, ValueError) as error:
+        raise StoreError(f"{shown}: not the address of a database; give a file, or postgresql://user@host/name") from error
+    driver = _DRIVERS.get(url.drivername)
+    if driver is None:
+        raise StoreError(f"{shown}: lipdb keeps its data in SQLite or PostgreSQL; give a file, or postgresql://user@host/name")
+    if driver == "sqlite" and url.database in (None, "", ":memory:"):
+        raise StoreError(f"{shown}: a database in memory would be empty for every connection; give a file")
+    return url.set(drivername=driver)
 
 
 def place_of(url: sa.URL) -> str:
@@ -45,6 +54,25 @@ def place_of(url: sa.URL) -> str:
 def is_file(url: sa.URL) -> bool:
     """Whether *url* is a SQLite file."""
     return url.get_backend_name() == "sqlite"
+
+
+def file_exists(url: sa.URL) -> bool:
+    """Whether the SQLite file at *url* is there and has something in it; True for other databases.
+
+    Raises `StoreError` for a file of another kind: SQLite would take a very short one for an empty database.
+    """
+    if not is_file(url):
+        return True
+    try:
+        with Path(place_of(url)).open("rb") as file:
+            start = file.read(len(_SQLITE_HEADER))
+    except FileNotFoundError:
+        return False
+    except OSError as error:
+        raise StoreError(f"{place_of(url)}: the database can't be opened ({error.strerror}); give another one with --db") from error
+    if start and start != _SQLITE_HEADER:
+        raise StoreError(f"{place_of(url)}: this file is not a database; give another one with --db, or move it away and a new one is made")
+    return bool(start)
 
 
 def make_engine(url: sa.URL, *, foreign_keys: bool = True) -> sa.Engine:

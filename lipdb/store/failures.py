@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import sqlalchemy as sa
 
-from lipdb.errors import LipdbError, MissingToolError, StoreError
+from lipdb.errors import MissingToolError, StoreError
 
 _SQLITE = {
     "SQLITE_BUSY": "the database is locked by another program; close it or try again in a moment",
@@ -22,15 +23,14 @@ _SQLITE = {
 }
 
 
-def _sentence(error: sa.exc.DBAPIError) -> str:
-    name = getattr(error.orig, "sqlite_errorname", None)
+def _sentence(error: BaseException) -> str:
+    name = getattr(error, "sqlite_errorname", None)
     if isinstance(name, str):
         # Extended codes begin with the plain one: SQLITE_IOERR_WRITE, SQLITE_READONLY_DBMOVED.
         plain = "_".join(name.split("_")[:2])
         if plain in _SQLITE:
             return _SQLITE[plain]
-    detail = " ".join(str(error.orig).split())
-    return f"the database says: {detail}"
+    return f"the database says: {' '.join(str(error).split())}"
 
 
 @contextmanager
@@ -38,13 +38,11 @@ def plain_errors(where: str) -> Iterator[None]:
     """Turn the database's errors into `StoreError` with one line; *where* names the database, without a password."""
     try:
         yield
-    except LipdbError:
-        raise
     except sa.exc.DBAPIError as error:
+        raise StoreError(f"{where}: {_sentence(error.orig or error)}") from error
+    except sqlite3.Error as error:
         raise StoreError(f"{where}: {_sentence(error)}") from error
-    except sa.exc.NoSuchModuleError as error:
-        raise StoreError(f"{where}: lipdb keeps its data in SQLite or PostgreSQL; give a file or a postgresql:// address") from error
     except ModuleNotFoundError as error:
-        if error.name and error.name.startswith("psycopg"):
-            raise MissingToolError(f"{where}: PostgreSQL needs one more package; run: pip install 'lipdb[postgres]'") from error
-        raise
+        if error.name != "psycopg":
+            raise
+        raise MissingToolError(f"{where}: PostgreSQL needs one more package; run: pip install 'lipdb[postgres]'") from error
