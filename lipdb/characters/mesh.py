@@ -12,6 +12,7 @@ from lipdb.errors import MeshError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 DECIMALS = 5
 """Built coordinates are rounded to this, so that the last bits of another processor do not change a file."""

@@ -1,27 +1,27 @@
 """Robin's eyes: the balls, and the skin around them with the lids.
 
-The skin round an eye is a fine patch of its own over the head's surface, because the head's grid turns about the mouth
-and can't have a second hole. Its rings run from the almond of the open eye outwards; its points lie on the same surface
-as the head and have the same colours, so that its border does not show.
+The skin round an eye is a patch (see `window`): its rings run from the almond of the open eye outwards.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from lipdb.characters.mesh import Floats, Ints, Part
-from lipdb.characters.sculpt.fields import bump, gradient, mix, raycast, smoothstep, srgb, tint
+from lipdb.characters.mesh import Bools, Floats, Part
+from lipdb.characters.sculpt.fields import bump, gradient, mix, smoothstep, srgb, tint
 from lipdb.characters.sculpt.grids import ball, grid_faces, outward
 from lipdb.characters.sculpt.head import EYE, EYE_RADIUS, form, skin_colour
 from lipdb.characters.sculpt.head_shapes import skin_shapes
+from lipdb.characters.sculpt.window import Window, carried
 
 IRIS = srgb("#5f8a5a")
 # Angles around the middle of the ball, in radians: sideways (outwards positive) and up.
 ALMOND_MIDDLE, ALMOND_HALF = 0.04, 0.80
 UPPER_LID, LOWER_LID, CLOSED, TILT = 0.47, -0.38, -0.20, 0.03
-PATCH_MIDDLE, PATCH_HALF, PATCH_UP, PATCH_DOWN = 0.19, 1.05, 1.20, -1.10
+WINDOW = Window(form, EYE, EYE_RADIUS, middle=0.19, half=1.05, up=1.20, down=-1.10)
 RINGS = (0.0, 0.05, 0.12, 0.21, 0.32, 0.45, 0.60, 0.78, 1.0)
 
 
@@ -39,45 +39,26 @@ def _rings(columns: int) -> _Rings:
     theta = np.linspace(0, 2 * np.pi, columns, endpoint=False)
     ring, theta = (a.ravel() for a in np.meshgrid(RINGS, theta, indexing="ij"))
     cosine, sine = np.cos(theta), np.sin(theta)
-    half = mix(ALMOND_HALF, PATCH_HALF, ring)
+    half = mix(ALMOND_HALF, WINDOW.half, ring)
     edge = np.where(sine >= 0, UPPER_LID, LOWER_LID) * np.abs(sine) ** 0.85
-    border = np.where(sine >= 0, PATCH_UP, PATCH_DOWN) * np.abs(sine)
+    border = np.where(sine >= 0, WINDOW.up, WINDOW.down) * np.abs(sine)
     up = mix(edge, border, ring) + TILT * cosine * (1 - 0.5 * ring)
-    return _Rings(mix(ALMOND_MIDDLE, PATCH_MIDDLE, ring) + half * cosine, up, ring, sine)
+    return _Rings(mix(ALMOND_MIDDLE, WINDOW.middle, ring) + half * cosine, up, ring, sine)
 
 
-def _surface(sideways: Floats, up: Floats) -> Floats:
-    """Points of the head's surface in these directions from the middle of the eye on +x."""
-    rays = np.stack([np.sin(sideways) * np.cos(up), np.sin(up), np.cos(sideways) * np.cos(up)], axis=-1)
-    return EYE + raycast(form, EYE, rays, begin=EYE_RADIUS)[:, None] * rays
+def behind_eye(points: Floats) -> Bools:
+    """Which of the head's points lie behind the open eye on +x, or just beside it."""
+    sideways, up = WINDOW.angles(points)
+    return np.asarray(np.hypot((sideways - ALMOND_MIDDLE) / ALMOND_HALF, up / np.where(up >= 0, UPPER_LID, -LOWER_LID)) < 1.18)
 
 
-def under_patches(positions: Floats, faces: Ints) -> tuple[Floats, Ints]:
-    """The head with nothing over or in front of the patches.
+def lids(head: Floats, head_shapes: Mapping[str, Floats], columns: int = 40) -> list[Part]:
+    """The skin round both eyes, with the lids' edges turned in to the ball.
 
-    Covered faces go; points behind the open eye sink into the ball, points near the border just below the patch.
+    The border moves as the *head* (positions, and displacements a shape) does, the lids' edges stay on the ball.
     """
-    q = np.concatenate([np.abs(positions[:, :1]), positions[:, 1:]], axis=1) - EYE
-    distance = np.linalg.norm(q, axis=1)
-    sideways, up = np.arctan2(q[:, 0], q[:, 2]), np.arctan2(q[:, 1], np.hypot(q[:, 0], q[:, 2]))
-    patch = np.hypot((sideways - PATCH_MIDDLE) / PATCH_HALF, up / np.where(up >= 0, PATCH_UP, -PATCH_DOWN))
-    almond = np.hypot((sideways - ALMOND_MIDDLE) / ALMOND_HALF, up / np.where(up >= 0, UPPER_LID, -LOWER_LID))
-    close = np.flatnonzero((patch < 1) & (distance < 2.2 * EYE_RADIUS))
-    ball_side = np.abs(distance[close] - raycast(form, EYE, q[close] / distance[close, None], begin=EYE_RADIUS)) < 0.02
-    close = close[ball_side]  # without the nose, which stands farther out in the same direction
-    depth = np.where(almond[close] < 1.15, 0.75, 1 - 0.012 * smoothstep(0.92, 0.80, patch[close]))
-    middle = EYE * np.where(positions[close, :1] < 0, np.array([-1.0, 1.0, 1.0]), 1.0)
-    sunk = positions.copy()
-    sunk[close] = middle + (positions[close] - middle) * depth[:, None]
-    covered = np.zeros(len(positions), dtype=bool)
-    covered[close] = (patch[close] < 0.82) | (almond[close] < 1.0)
-    return sunk, faces[~covered[faces].all(axis=1)]
-
-
-def lids(columns: int = 40) -> list[Part]:
-    """The skin round both eyes, with the lids' edges turned in to the ball."""
     rings = _rings(columns)
-    skin = _surface(rings.sideways, rings.up)
+    skin = WINDOW.surface(rings.sideways, rings.up)
     normals = gradient(form, skin)
     colours = skin_colour(skin, normals)
     crease = bump(rings.ring - 0.38, 0.055) * np.clip(rings.sine, 0, 1) ** 0.5
@@ -86,7 +67,9 @@ def lids(columns: int = 40) -> list[Part]:
     colours = _lid_colours(colours, rings, crease)
     edge = EYE + (skin[:columns] - EYE) * (0.985 / 1.09)
     positions = np.concatenate([edge, skin])
-    shapes = skin_shapes(positions, np.ones(len(positions)))
+    loose = smoothstep(0.0, 0.6, np.concatenate([np.zeros(columns), rings.ring]))[:, None]
+    shapes = {name: moved * loose for name, moved in carried(positions, head, head_shapes).items()}
+    shapes.update(skin_shapes(positions, np.ones(len(positions))))
     shapes["blink"] = np.concatenate([EYE + (blink[:columns] - EYE) * (0.985 / 1.09), blink]) - positions
     colours = np.concatenate([tint(colours[:columns], srgb("#8d4a42"), np.full(columns, 0.45)), colours])
     faces = outward(positions, grid_faces(len(RINGS) + 1, columns), positions - EYE)
@@ -96,11 +79,10 @@ def lids(columns: int = 40) -> list[Part]:
 
 def _blink(rings: _Rings) -> Floats:
     """Where the patch's points lie when the lids are shut: the edge on one line, the border where it was."""
-    shut = (
-        CLOSED * np.abs(rings.sine) ** 0.85 * np.where(rings.sine >= 0, 1.06, 0.98) + TILT * (rings.sideways - ALMOND_MIDDLE) / ALMOND_HALF
-    )
+    line = CLOSED * np.abs(rings.sine) ** 0.85 + TILT * (rings.sideways - ALMOND_MIDDLE) / ALMOND_HALF
+    shut = line + np.where(rings.sine >= 0, -0.012, 0.004) * np.abs(rings.sine)
     follow = (1 - rings.ring) ** 1.5
-    return _surface(rings.sideways, mix(rings.up, shut, follow))
+    return WINDOW.surface(rings.sideways, mix(rings.up, shut, follow))
 
 
 def _lid_colours(colours: Floats, rings: _Rings, crease: Floats) -> Floats:

@@ -22,7 +22,7 @@ def smoothstep(start: float, end: float, x: Floats | float) -> Floats:
     return np.asarray(t * t * (3 - 2 * t))
 
 
-def bump(distance: Floats | float, width: float) -> Floats:
+def bump(distance: Floats | float, width: Floats | float) -> Floats:
     """A bell of height 1 at distance 0."""
     return np.asarray(np.exp(-0.5 * (np.asarray(distance) / width) ** 2))
 

@@ -9,7 +9,6 @@ import numpy as np
 from lipdb.characters.mesh import Floats
 from lipdb.characters.sculpt.fields import (
     bump,
-    capsule,
     cut,
     ellipsoid,
     gradient,
@@ -51,13 +50,20 @@ def form(points: Floats) -> Floats:
     head = union(head, ellipsoid(both, (0.30, -0.40, 0.48), (0.24, 0.22, 0.24)), 0.18)  # cheeks
     head = union(head, ellipsoid(points, (0, 0.36, 0.60), (0.46, 0.13, 0.18)), 0.18)  # brow
     head = union(head, ellipsoid(points, (0, -0.44, 0.66), (0.27, 0.20, 0.20)), 0.14)  # round of the teeth
-    head = cut(head, sphere(both, (0.30, 0.10, 0.98), 0.20), 0.16)  # eye sockets
-    head = union(head, sphere(both, EYE, LID_RADIUS), 0.10)  # lids
-    head = union(head, capsule(points, (0, 0.20, 0.74), (0, -0.09, 0.91), 0.050, 0.070), 0.11)  # bridge of the nose
-    head = union(head, ellipsoid(points, (0, -0.120, 0.945), (0.086, 0.076, 0.080)), 0.06)  # its tip
-    head = union(head, capsule(points, (0, -0.14, 0.91), (0, -0.205, 0.84), 0.055, 0.050), 0.07)  # and what is below it
-    head = union(head, ellipsoid(both, (0.085, -0.150, 0.870), (0.056, 0.050, 0.068)), 0.05)  # its wings
-    return cut(head, capsule(points, (0, -0.26, 0.955), (0, -0.31, 0.950), 0.016, 0.016), 0.05)  # philtrum
+    head = cut(head, sphere(both, (0.30, 0.165, 1.00), 0.19), 0.16)  # eye sockets
+    head = union(head, sphere(both, EYE, LID_RADIUS), 0.12)  # lids
+    return head - _nose(points)
+
+
+def _nose(points: Floats) -> Floats:
+    """How far the nose stands off the face: heights and no overhang, so that the grid of the head can follow it."""
+    x, y = points[..., 0], points[..., 1]
+    ridge = mix(0.020, 0.085, smoothstep(0.30, -0.08, y)) * smoothstep(0.44, 0.20, y) * smoothstep(-0.215, -0.130, y)
+    ridge = ridge * bump(x, mix(0.038, 0.056, smoothstep(0.2, -0.1, y)))
+    tip = 0.090 * bump(x, 0.060) * bump(y + 0.115, np.where(y > -0.115, 0.075, 0.046))
+    wings = 0.050 * bump(np.abs(x) - 0.080, 0.030) * bump(y + 0.150, 0.036)
+    philtrum = -0.012 * bump(x, 0.022) * bump(y + 0.285, 0.035)
+    return np.asarray((ridge + tip + wings + philtrum) * smoothstep(0.3, 0.6, points[..., 2]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,7 +107,7 @@ def _lips(bare: Floats, normals: Floats, lip: Floats, taper: Floats, sine: Float
     groove = np.exp(-((lip / 0.30) ** 2))
     surface[:, 2] -= groove * (0.018 * taper + 0.012)
     surface[:, 1] += np.exp(-((mu / 0.55) ** 2)) * (0.008 - 0.010 * np.cos(np.pi * np.clip(bare[:, 0] / 0.28, -1, 1)))
-    return surface
+    return np.asarray(surface)
 
 
 def skin_colour(points: Floats, normals: Floats) -> Floats:
@@ -117,6 +123,5 @@ def skin_colour(points: Floats, normals: Floats) -> Floats:
 def _skin(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Floats:
     colours = skin_colour(bare, normals)
     colours = tint(colours, LIP, smoothstep(1.10, 0.93, lip) * smoothstep(-0.2, 0.15, taper) * 0.9)
-    colours = tint(colours, INSIDE, np.exp(-((lip / 0.20) ** 2)) * taper * 0.7)
-    nostril = near(bare, (0.044, -0.198, 0.905), (0.020, 0.013, 0.035))
-    return tint(colours, srgb("#6b2f2a"), nostril * 0.85)
+    colours = tint(colours, srgb("#7a3a33"), near(bare, (0.044, -0.180, 0.90), (0.018, 0.010, 0.05)) * 0.5)  # nostrils
+    return tint(colours, INSIDE, np.exp(-((lip / 0.20) ** 2)) * taper * 0.7)
