@@ -23,12 +23,22 @@ NEUTRAL_TONE = 5
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A symbol taken apart: *forms* to look it up by, the fullest first, and its attributes as in `Phone`."""
+    """A symbol taken apart: as it is (*text*), without stress and tone (*bare*), and without length as well (*short*).
 
-    forms: tuple[str, ...]
+    Its attributes are as in `lipdb.schedule.Phone`.
+    """
+
+    text: str
+    bare: str
+    short: str
     tone: int = 0
     stress: int = 0
     long: bool = False
+
+    @property
+    def forms(self) -> tuple[str, ...]:
+        """What to look the symbol up by, the fullest first."""
+        return tuple(dict.fromkeys((self.text, self.bare, self.short)))
 
 
 @cache
@@ -43,7 +53,7 @@ def read_label(symbol: str, notation: str) -> Label:
     bare, tone = _take_tone(bare, notation)
     long = "ː" in bare or (bare.endswith(":") and len(bare) > 1)
     short = bare.replace("ː", "").replace("ˑ", "").removesuffix(":") or bare
-    return Label(tuple(dict.fromkeys((text, bare, short))), tone, stress, long)
+    return Label(text, bare, short, tone, stress, long)
 
 
 def _take_stress(text: str, notation: str) -> tuple[str, int]:

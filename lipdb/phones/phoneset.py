@@ -130,7 +130,7 @@ class PhoneSet:
 
     def _segment(self, symbol: str, notation: str) -> str:
         """*symbol* as an IPA segment: through X-SAMPA where the notation is that, else as it is written."""
-        form = read_label(symbol, notation).forms[-1]
+        form = read_label(symbol, notation).short
         return unbracketed(symbol) or self.symbols.segment_of(form, notation) or form
 
     def _unknown(self, symbol: str, count: int, notation: str) -> Unknown:

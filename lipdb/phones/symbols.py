@@ -76,18 +76,18 @@ class Symbols:
         label = read_label(symbol, notation)
         if unbracketed(symbol) in self.segments:
             return (symbol,)
-        if label.forms[0] in ("", SILENCE):
+        if label.text in ("", SILENCE):
             return (SILENCE,)
         table = self.aliases.get(notation, {})
         for form in label.forms:
             if form in table:
                 return table[form]
-        if label.forms[0].lower() in self.marks:
+        if label.text.lower() in self.marks:
             return (SILENCE,)
         return (
-            (self.syllables.split(label.forms[-1], self.phones) if notation == self.own else ())
-            or self._joined(label.forms[1] if len(label.forms) > 1 else label.forms[0], notation, common)
-            or self._row_of(label.forms[-1], table, notation)
+            (self.syllables.split(label.bare, self.phones) if notation == self.own else ())
+            or self._joined(label.bare, notation, common)
+            or self._row_of(label.bare, table, notation)
             or (self._segment(label, notation) if common else ())
         )
 
