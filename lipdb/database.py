@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from lipdb import plugins
 from lipdb.errors import InputError
@@ -42,6 +42,29 @@ class PairUse:
     right: str
     count: int
     curves: Mapping[str, Found]
+
+    @property
+    def missing(self) -> list[str]:
+        """The poses whose curve no table has: it was made for the moment."""
+        return [pose for pose, found in self.curves.items() if found.fallback]
+
+    @property
+    def gap(self) -> bool:
+        """Whether the curve of some pose is neither authored nor fitted: work for an artist."""
+        return any(found.curve.origin not in ("authored", "fitted") for found in self.curves.values())
+
+    def to_row(self) -> dict[str, Any]:
+        """Plain data for a listing."""
+        moving = [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
+        return {
+            "left": self.left,
+            "right": self.right,
+            "count": self.count,
+            "origin": sorted({found.curve.origin for found in moving}),
+            "layer": sorted({found.layer for found in moving}),
+            "poses": [pose for pose, found in self.curves.items() if found.curve.keys],
+            "missing": self.missing,
+        }
 
 
 def open(url: str | None = None, *, phonesets: str | Path | None = None) -> Database:
@@ -142,7 +165,7 @@ class Database:
 
         result = spoken(self.voice(language), text)
         schedule, _ = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
-        return Line(schedule, result.sound, text)
+        return Line(schedule, result.sound, text, notes=result.notes)
 
     def sync(
         self,

@@ -41,3 +41,25 @@ def phones(options: Options, text: str, language: str, character: str | None, as
         print_listing(rows, as_json=as_json)
         for symbol in unknown:
             click.echo(f"lipdb: {symbol}", err=True)
+
+
+@click.command(short_help="Show the phone pairs of a text and where their curves come from.")
+@click.argument("text")
+@LANGUAGE
+@click.option("-c", "--character", default="robin", show_default=True, help="Whose curves.")
+@json_option
+@click.pass_obj
+def pairs(options: Options, /, text: str, language: str, character: str, as_json: bool) -> None:
+    """Show each phone pair of TEXT, where its curves come from (origin and layer), and the poses that have none.
+
+    \b
+    Example:
+      lipdb pairs "Hello world"
+    """
+    with options.open() as db:
+        uses = db.pairs(db.say(text, language=language, allow_unknown=True), character=character)
+        print_listing([use.to_row() for use in uses], as_json=as_json)
+        missing, gaps = sum(bool(use.missing) for use in uses), sum(use.gap for use in uses)
+        click.echo(
+            f"{len(uses)} pairs: {missing} without a curve in any table, {gaps} whose curves nobody has drawn or fitted yet", err=True
+        )

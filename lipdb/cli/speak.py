@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lipdb.cli.options import F, Options, json_option, print_json, print_listing
+from lipdb.errors import InputError
 
 if TYPE_CHECKING:
     from lipdb.database import Database
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 
 def _face_options(command: F) -> F:
     """The options that say and sync share."""
-    options: list[Callable[[F], F]] = [
+    options: list[Callable[[Any], Any]] = [
         click.option("-l", "--language", default="en", show_default=True, help="A language's code; see `lipdb language list`."),
         click.option("-c", "--character", default="robin", show_default=True, help="Whose face; see `lipdb character list`."),
         click.option("--fps", default=60.0, show_default=True, type=click.FloatRange(1, 1000), help="Frames a second."),
@@ -42,7 +44,7 @@ def _face_options(command: F) -> F:
 @click.argument("text")
 @_face_options
 @click.pass_obj
-def say(options: Options, text: str, language: str, allow_unknown: bool, **face: Any) -> None:
+def say(options: Options, /, text: str, language: str, allow_unknown: bool, **face: Any) -> None:
     """Speak TEXT (`-` reads it from standard input) and write the moving face; without -o, show the schedule.
 
     \b
@@ -51,9 +53,19 @@ def say(options: Options, text: str, language: str, allow_unknown: bool, **face:
       lipdb say "你好，世界" --language cmn -o hello.csv -o hello.glb
     """
     if text == "-":
-        text = click.get_text_stream("stdin", encoding="utf-8").read()
+        text = _standard_input()
     with options.open() as db:
-        _deliver(db, db.say(text, language=language, allow_unknown=allow_unknown), **face)
+        line = db.say(text, language=language, allow_unknown=allow_unknown)
+        for note in line.notes:
+            click.echo(f"lipdb: {note}", err=True)
+        _deliver(db, line, **face)
+
+
+def _standard_input() -> str:
+    try:
+        return sys.stdin.buffer.read().decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise InputError(f"standard input is not UTF-8 text ({error}); convert it first") from error
 
 
 @click.command(short_help="Move a face to a recording that was aligned already.")
@@ -64,7 +76,7 @@ def say(options: Options, text: str, language: str, allow_unknown: bool, **face:
 @_face_options
 @click.pass_obj
 def sync(
-    options: Options, file: Path, audio: Path | None, tier: str | None, notation: str, language: str, allow_unknown: bool, **face: Any
+    options: Options, /, file: Path, audio: Path | None, tier: str | None, notation: str, language: str, allow_unknown: bool, **face: Any
 ) -> None:
     """Move a face to FILE: a Praat TextGrid, or a line's .json (with the edits that you made to it).
 
