@@ -124,9 +124,9 @@ def test_a_dump_removes_tables_that_the_store_no_longer_has(store, tmp_path):
     store.dump(tmp_path)
     (tmp_path / "README.md").write_text("not a table")
     with store.edit(author="anna") as edit:
-        edit.delete("cmn/curves/facefx.tsv", ("ue", "bmp", "W"))
+        edit.delete("constraints/facefx.tsv", ("open", "PBM"))
     store.dump(tmp_path)
-    assert set(files(tmp_path)) == {"README.md", "curves/facefx.tsv", "sources.tsv"}
+    assert set(files(tmp_path)) == {"README.md", *files(TEXT)} - {"constraints/facefx.tsv"}
 
 
 def test_one_edited_curve_is_one_changed_line(store, tmp_path):

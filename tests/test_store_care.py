@@ -42,7 +42,7 @@ class TestLoad:
     def test_the_rows_that_the_text_changed_make_one_revision(self, store, tmp_path):
         store.dump(tmp_path / "text")
         folder = rewritten(tmp_path / "text", KEY, "0:0 1:1")
-        (folder / "cmn" / "curves" / "facefx.tsv").unlink()
+        (folder / "constraints" / "facefx.tsv").unlink()
         assert store.load(folder, author="anna", note="Review") == Loaded(2, added=0, changed=1, removed=1)
         assert [(one.author, one.note, one.rows) for one in store.history(limit=1)] == [("anna", "Review", 2)]
         assert store.records() == read_folder(folder)
@@ -120,12 +120,13 @@ class TestCheck:
     @pytest.mark.parametrize(
         ("damage", "message"),
         [
-            ("UPDATE record SET path = 'nonsense.tsv' WHERE path LIKE 'cmn%'", "nonsense.tsv:1:1: no table has this name"),
+            ("UPDATE record SET path = 'nonsense.tsv' WHERE path LIKE 'constraints%'", "nonsense.tsv:1:1: no table has this name"),
             (cell("licence", "two words"), "sources.tsv:3:1: column licence: 'two words' must be one word"),
             (cell("title", " x"), "sources.tsv:3:1: the row is not written in canonical form"),
             (cell("source", "me"), "sources.tsv:3:1: the row is stored under the name user"),
             (cell("title", "x"), "sources.tsv user is not what its newest revision made of it"),
             ("DELETE FROM record WHERE path = 'sources.tsv'", "sources.tsv user is not what its newest revision made of it"),
+            (cell("licence", "").replace("user", "lipdb"), "sources.tsv:2:1: column licence is empty"),
             ("DELETE FROM revision", "row 1 of table record names a row of revision that is not there"),
             ("DROP INDEX ix_change_path_key", "the tables differ from lipdb's: add_index"),
             ("ALTER TABLE record ADD COLUMN colour TEXT", "the tables differ from lipdb's: remove_column"),
@@ -135,3 +136,10 @@ class TestCheck:
         with closing(sqlite3.connect(tmp_path / "a.db", isolation_level=None)) as connection:
             connection.execute(damage)
         assert message in "\n".join(map(str, store.check()))
+
+    def test_rows_that_do_not_fit_together_are_found(self, store):
+        with store.edit(author="anna") as edit:
+            edit.put(CURVES, {"left": "aa", "right": "bpm", "pose": "open", "keys": "", "warp": "border"})
+        assert [str(finding) for finding in store.check()] == [
+            "curves/facefx.tsv:6:4: common phone 'bpm' does not exist; did you mean 'bmp'?"
+        ]

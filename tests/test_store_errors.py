@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from lipdb.curated.folder import read_folder
 from lipdb.errors import LipdbError, MissingToolError, OutputError, PhonesetError, StoreError
 from lipdb.store import Store, engines
 
@@ -260,4 +261,4 @@ class TestPlace:
     def test_the_text_that_fills_it_can_be_named_by_the_environment(self, tmp_path, monkeypatch):
         monkeypatch.setenv("LIPDB_PHONESETS", str(TEXT))
         with closing(Store.open(tmp_path / "a.db")) as store:
-            assert set(store.records()) == {"sources.tsv", CURVES, "cmn/curves/facefx.tsv"}
+            assert store.records() == read_folder(TEXT)

@@ -39,7 +39,7 @@ def test_history_lists_revisions_newest_first(store):
     newest, middle, first = store.history()
     assert (newest.number, newest.author, newest.note, newest.rows) == (3, "bob", "PBM 0:0 1:1", 1)
     assert (middle.number, first.number) == (2, 1)
-    assert (first.author, first.note, first.rows) == ("lipdb", "Fill from the shipped text", 9)
+    assert (first.author, first.note, first.rows) == ("lipdb", "Fill from the shipped text", 17)
     assert [one.number for one in store.history(limit=1)] == [3]
 
 
@@ -48,7 +48,7 @@ def test_history_of_a_table_or_of_one_row_leaves_other_revisions_out(store):
     with store.edit(author="bob") as edit:
         edit.put("sources.tsv", {"source": "studio", "title": "Our studio", "licence": "CC0-1.0"})
     assert [one.number for one in store.history("sources.tsv")] == [3, 1]
-    assert [one.number for one in store.history("cmn/")] == [1]
+    assert [one.number for one in store.history("constraints/")] == [1]
     assert [one.number for one in store.history(CURVES, KEY)] == [2, 1]
     assert [(one.number, one.rows) for one in store.history(CURVES, ("aa", "bmp", "open"))] == [(1, 1)]
 
@@ -72,7 +72,7 @@ def test_the_difference_of_two_revisions_runs_both_ways_and_drops_what_came_back
     (backward,) = store.diff(5, 1)
     assert (backward.before, backward.after) == (forward.after, forward.before)
     assert store.diff(3, 5) == []
-    assert store.diff(1, 5, "cmn/") == []
+    assert store.diff(1, 5, "constraints/") == []
 
 
 def test_any_old_state_can_be_read(store):

@@ -15,19 +15,19 @@ TEXT = Path(__file__).parent / "data" / "databases" / "text"
 ROWS = 3
 SAVES = 8
 
-# What a person does: read a row, think, save it; when somebody was faster, look again.
-COUNT_UP = """
+# What a person does: read a row, add a word to it, save it; when somebody was faster, look again.
+ADD_WORDS = """
 import sys
 from lipdb.errors import ConflictError
 from lipdb.store import Store
 
-def count_up(store, who, saves, rows):
+def add_words(store, who, saves, rows):
     conflicts = 0
     for i in range(saves):
-        key = (f"counter{(who + i) % rows}",)
+        key = (f"shared{(who + i) % rows}",)
         while True:
             seen = store.record("sources.tsv", key)
-            row = {**seen.row, "comment": str(int(seen.row["comment"]) + 1)}
+            row = {**seen.row, "comment": seen.row["comment"] + f" {who}.{i}"}
             try:
                 with store.edit(author=f"worker{who}") as edit:
                     edit.put("sources.tsv", row, expected_revision=seen.revision)
@@ -38,7 +38,7 @@ def count_up(store, who, saves, rows):
 """
 MAIN = """
 store = Store.open(sys.argv[1], sys.argv[2])
-print(count_up(store, *map(int, sys.argv[3:])))
+print(add_words(store, *map(int, sys.argv[3:])))
 """
 
 
@@ -54,30 +54,27 @@ def output(running: subprocess.Popen[str]) -> str:
 
 
 @pytest.fixture
-def counters(tmp_path):
+def file(tmp_path):
     file = tmp_path / "a.db"
     with closing(Store.open(file, TEXT)) as store, store.edit(author="anna") as edit:
         for i in range(ROWS):
-            edit.put("sources.tsv", {"source": f"counter{i}", "title": "Counter", "licence": "CC0-1.0", "comment": "0"})
+            edit.put("sources.tsv", {"source": f"shared{i}", "title": "Shared", "licence": "CC0-1.0", "comment": "words:"})
     return file
 
 
-def total(store: Store) -> int:
-    return sum(int(store.record("sources.tsv", (f"counter{i}",)).row["comment"]) for i in range(ROWS))
-
-
-def test_colliding_threads_and_processes_lose_no_update_and_meet_no_lock(counters):
+def test_colliding_threads_and_processes_lose_no_update_and_meet_no_lock(file):
     names: dict[str, object] = {}
-    exec(COUNT_UP, names)
-    running = [process(COUNT_UP + MAIN, counters, TEXT, who, SAVES, ROWS) for who in range(3)]
-    shared = Store.open(counters, TEXT)
-    own = Store.open(counters, TEXT)
+    exec(ADD_WORDS, names)
+    running = [process(ADD_WORDS + MAIN, file, TEXT, who, SAVES, ROWS) for who in range(3)]
+    shared = Store.open(file, TEXT)
+    own = Store.open(file, TEXT)
     with ThreadPoolExecutor(5) as pool:
-        threads = [pool.submit(names["count_up"], shared if who % 2 else own, who, SAVES, ROWS) for who in range(3, 8)]
+        threads = [pool.submit(names["add_words"], shared if who % 2 else own, who, SAVES, ROWS) for who in range(3, 8)]
         conflicts = sum(thread.result() for thread in threads)
     conflicts += sum(int(output(one)) for one in running)
     assert conflicts > 0, "nobody collided: this test showed nothing"
-    assert total(shared) == 8 * SAVES
+    words = [word for i in range(ROWS) for word in shared.record("sources.tsv", (f"shared{i}",)).row["comment"].split()[1:]]
+    assert sorted(words) == sorted(f"{who}.{i}" for who in range(8) for i in range(SAVES))
     assert [one.number for one in shared.history()] == list(range(2 + 8 * SAVES, 0, -1))
     assert shared.check() == []
     own.close()
@@ -86,8 +83,10 @@ def test_colliding_threads_and_processes_lose_no_update_and_meet_no_lock(counter
 
 def test_programs_that_make_the_database_at_the_same_time_make_it_once(tmp_path):
     file = tmp_path / "a.db"
-    code = "import sys; from lipdb.store import Store; s = Store.open(*sys.argv[1:]); print(s.revision, len(s.records()))"
-    assert {output(one) for one in [process(code, file, TEXT) for _ in range(4)]} == {"1 3\n"}
+    code = (
+        "import sys; from lipdb.store import Store; s = Store.open(*sys.argv[1:]); print(s.revision, sum(map(len, s.records().values())))"
+    )
+    assert {output(one) for one in [process(code, file, TEXT) for _ in range(4)]} == {"1 17\n"}
     assert [path.name for path in tmp_path.iterdir()] == ["a.db"]
 
 
@@ -98,25 +97,26 @@ def test_programs_that_upgrade_at_the_same_time_upgrade_once(tmp_path):
     assert {output(one) for one in [process(code, file, TEXT) for _ in range(3)]} == {"5\n"}
 
 
-def test_a_reader_sees_one_state_while_others_save(counters):
-    with closing(Store.open(counters, TEXT)) as store, ThreadPoolExecutor(1) as pool:
+def test_a_reader_sees_one_state_while_others_save(file):
+    with closing(Store.open(file, TEXT)) as store, ThreadPoolExecutor(1) as pool:
 
         def both(i: int) -> None:
             with store.edit(author="bob") as edit:
                 for k in range(2):
-                    edit.put("sources.tsv", {"source": f"counter{k}", "title": "Counter", "licence": "CC0-1.0", "comment": str(i)})
+                    edit.put("sources.tsv", {"source": f"shared{k}", "title": "Shared", "licence": "CC0-1.0", "comment": f"{i}"})
 
+        both(0)
         writer = pool.submit(lambda: [both(i) for i in range(1, 20)])
         while not writer.done():
             records, revision = store.snapshot()
-            one, two = (records["sources.tsv"][f"counter{k}",]["comment"] for k in range(2))
-            assert one == two == str(revision - 2)
+            one, two = (records["sources.tsv"][f"shared{k}",]["comment"] for k in range(2))
+            assert one == two == str(revision - 3)
         writer.result()
 
 
-def test_what_two_people_saw_can_be_saved_only_once(counters):
-    with closing(Store.open(counters, TEXT)) as store:
-        seen = store.record("sources.tsv", ("counter0",))
+def test_what_two_people_saw_can_be_saved_only_once(file):
+    with closing(Store.open(file, TEXT)) as store:
+        seen = store.record("sources.tsv", ("shared0",))
         outcomes = []
         for author in ("anna", "bob"):
             try:
@@ -126,4 +126,4 @@ def test_what_two_people_saw_can_be_saved_only_once(counters):
             except ConflictError:
                 outcomes.append("refused")
         assert outcomes == ["saved", "refused"]
-        assert store.record("sources.tsv", ("counter0",)).row["comment"] == "anna"
+        assert store.record("sources.tsv", ("shared0",)).row["comment"] == "anna"

@@ -229,7 +229,7 @@ class TestSchema:
         assert set(done.followed) == {
             (CURVES, ("aa", "bmp", "PBM")),
             (CURVES, ("bmp", "bmp", "open")),
-            ("cmn/curves/facefx.tsv", ("ue", "bmp", "W")),
+            ("constraints/facefx.tsv", ("open", "PBM")),
             ("sources.tsv", ("user",)),
         }
         assert {one.key for one in done.kept} == {("aa", "bmp", "open"), ("aa", "_", "open")}

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sqlalchemy as sa
 
+from lipdb.curated.check import check
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Finding, Key, Records, Row, canonical_row, key_of
 from lipdb.store.cells import records_from
@@ -20,7 +21,8 @@ def findings(connection: sa.Connection, where: str) -> list[Finding]:
     if found:
         return found
     records = records_from(connection.execute(sa.select(record.c.path, record.c.key, record.c.cells)).all())
-    found += _row_findings(records)
+    # What rows say about each other can only be asked when each of them is in order.
+    found += list(_row_findings(records)) or check(records)
     found += [Finding(where, 0, 0, message) for message in _history_findings(connection, records)]
     return sorted(found)
 
