@@ -20,8 +20,8 @@ class Line:
     """A schedule with its sound and the layer that belongs to this line alone.
 
     *mapping* gives phones of the language other common phones; *curves* gives pairs other curves, by pose set. Both win
-    over every other layer. They travel in the line's JSON, where a person edits them; the sound does not. *notes* say what of the text was left out or read in a way that a
-    person might not expect.
+    over every other layer. They travel in the line's JSON, where a person edits them; the sound does not. *notes* say
+    what of the text was left out, or read in a way that a person might not expect.
     """
 
     schedule: Schedule
