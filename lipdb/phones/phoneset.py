@@ -11,7 +11,7 @@ from types import MappingProxyType
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError, PhonesetError, ScheduleError, UnknownSymbolError
 from lipdb.phones.articulation import NEUTRAL, classify, nearest
-from lipdb.phones.labels import read_label
+from lipdb.phones.labels import Label, read_label
 from lipdb.phones.mapping import ARTICULATION, COMMON, Mapped, Mappings, bracketed, unbracketed
 from lipdb.phones.symbols import Symbols
 from lipdb.schedule import SILENCE, Phone, Schedule
@@ -94,8 +94,9 @@ class PhoneSet:
         self._check_line(line)
         notation = self.notation_of(schedule)
         edges, phones, missing = [schedule.edges[0]], list[Phone](), Counter[str]()
+        known = {symbol: self._known(symbol, notation, line) for symbol in {phone.symbol for phone in schedule.phones}}
         for phone, end in zip(schedule.phones, schedule.edges[1:], strict=True):
-            found = self._known(phone, notation, line)
+            found = [_spoken(phone, *part) for part in known[phone.symbol]]
             if not found:
                 missing[phone.symbol] += 1
                 found = [self._by_articulation(phone, notation)]
@@ -107,20 +108,15 @@ class PhoneSet:
         done = replace(schedule, edges=tuple(edges), phones=tuple(phones), language=self.language, notation=self.symbols.own)
         return done, unknown
 
-    def _known(self, phone: Phone, notation: str, line: Mapping[str, tuple[str, ...]]) -> list[Phone]:
-        """The phones that one label stands for, with the attributes on those that carry them; none when it is unknown."""
-        mapped = [self.mapping(part, line) for part in self.symbols.parts(phone.symbol, notation)]
-        label = read_label(phone.symbol, notation)
-        carriers = [m.phone for m in mapped if m.kind not in ("consonant", "initial", "silence")] or [m.phone for m in mapped]
-        found = []
-        for m in mapped:
-            part = replace(phone, symbol=m.phone, common=m.common, layer=m.layer)
-            if m.phone in carriers and m.phone != SILENCE:
-                part = replace(part, tone=label.tone or phone.tone, stress=label.stress or phone.stress, long=label.long or phone.long)
-            elif len(mapped) > 1 or m.phone == SILENCE:
-                part = replace(part, tone=0, stress=0, long=False)
-            found.append(part)
-        return found
+    def _known(self, symbol: str, notation: str, line: Mapping[str, tuple[str, ...]]) -> list[tuple[Mapped, Label | None]]:
+        """What one label stands for, each part with the label whose attributes it carries; nothing when it is unknown.
+
+        Vowels and finals carry stress, tone and length; a label of one phone, or of consonants alone, carries its own.
+        """
+        parts = [self.mapping(part, line) for part in self.symbols.parts(symbol, notation)]
+        label = read_label(symbol, notation)
+        carried = [part.kind not in ("consonant", "initial", "silence") for part in parts]
+        return [(part, label if carries or not any(carried) else None) for part, carries in zip(parts, carried, strict=True)]
 
     def _by_articulation(self, phone: Phone, notation: str) -> Phone:
         segment = self._segment(phone.symbol, notation)
@@ -165,6 +161,14 @@ class PhoneSet:
                 raise InputError(
                     f"the line's mapping: {self.language} has no phone {phone!r}" + (f"; did you mean {near[0]!r}?" if near else "")
                 )
+
+
+def _spoken(phone: Phone, mapped: Mapped, label: Label | None) -> Phone:
+    """One part of *phone*, with the attributes of *label* or, where that has none, those that *phone* came with."""
+    if label is None or mapped.phone == SILENCE:
+        return Phone(mapped.phone, mapped.common, mapped.layer, phone.word)
+    tone, stress, long = label.tone or phone.tone, label.stress or phone.stress, label.long or phone.long
+    return Phone(mapped.phone, mapped.common, mapped.layer, phone.word, tone, stress, long)
 
 
 def _share(start: int, end: int, phones: list[Phone]) -> list[int]:
