@@ -132,7 +132,10 @@ TABLES: tuple[Table, ...] = (
     # Common phones. *ipa* is a typical segment of the class: what "nearest by articulation" compares.
     Table(
         "common.tsv",
-        _columns("phone kind ipa? language? example? " + _SOURCED, phone=_name, kind=_one_of("vowel", "consonant", "silence"), source=_name),
+        _columns(
+            "phone kind ipa? language? example? " + _SOURCED,
+            phone=_name, kind=_one_of("vowel", "consonant", "silence"), source=_name,
+        ),
         ("phone",),
     ),
     # The common layer of the phone mapping: IPA segment to common phones.
@@ -148,8 +151,16 @@ TABLES: tuple[Table, ...] = (
         ),
         ("pose",),
     ),
-    Table("poses/sets.tsv", _columns("pose_set window threshold title " + _SOURCED, pose_set=_name, window=_number, threshold=_number, source=_name), ("pose_set",)),
-    Table("constraints/{pose_set}.tsv", _columns("pose other threshold " + _SOURCED, pose=_name, other=_name, threshold=_number, source=_name), ("pose", "other")),
+    Table(
+        "poses/sets.tsv",
+        _columns("pose_set window threshold title " + _SOURCED, pose_set=_name, window=_number, threshold=_number, source=_name),
+        ("pose_set",),
+    ),
+    Table(
+        "constraints/{pose_set}.tsv",
+        _columns("pose other threshold " + _SOURCED, pose=_name, other=_name, threshold=_number, source=_name),
+        ("pose", "other"),
+    ),
     Table("links/{pose_set}/{target}.tsv", _LINK, ("pose", "shape")),
     Table("curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
     # What the shared curves are generated from. *glide* is a diphthong's second target (empty: it stays at the first).
@@ -162,20 +173,48 @@ TABLES: tuple[Table, ...] = (
         ("phone", "pose"),
     ),
     # How far a phone reaches into its neighbours: before its own start (lead) and after its own end (release).
-    Table("timing/{pose_set}.tsv", _columns("phone lead release " + _PROVENANCE, phone=_name, lead=_number, release=_number, **_ORIGIN), ("phone",)),
+    Table(
+        "timing/{pose_set}.tsv",
+        _columns("phone lead release " + _PROVENANCE, phone=_name, lead=_number, release=_number, **_ORIGIN),
+        ("phone",),
+    ),
     # A language. *voice* is what the speech engine calls it, *speech* the plug-in that makes schedules from its text.
-    Table("{language}/language.tsv", _columns("language name notation speech voice script " + _SOURCED, language=_name, notation=_name, source=_name), ("language",)),
+    Table(
+        "{language}/language.tsv",
+        _columns("language name notation speech voice script " + _SOURCED, language=_name, notation=_name, source=_name),
+        ("language",),
+    ),
     Table("{language}/phones.tsv", _columns("phone kind ipa common example " + _PROVENANCE, kind=_PHONE_KIND, **_MAPPING), ("phone",)),
-    Table("{language}/aliases.tsv", _columns("notation symbol phones " + _SOURCED, notation=_name, symbol=_name, source=_name), ("notation", "symbol")),
-    Table("{language}/syllables.tsv", _columns("syllable initial? final ipa xsampa characters example? status " + _SOURCED, syllable=_name, source=_name), ("syllable",)),
+    Table(
+        "{language}/aliases.tsv",
+        _columns("notation symbol phones " + _SOURCED, notation=_name, symbol=_name, source=_name),
+        ("notation", "symbol"),
+    ),
+    # Written syllables. *characters*: how many of a standard set are read so; *status*: how common the syllable is.
+    Table(
+        "{language}/syllables.tsv",
+        _columns(
+            "syllable initial? final ipa xsampa characters example? status " + _SOURCED,
+            syllable=_name, characters=_count, status=_one_of("core", "dict", "theory"), source=_name,
+        ),
+        ("syllable",),
+    ),
     # How words are read where the language's own reader can't know: pinyin with tone numbers for Mandarin.
     Table("{language}/readings.tsv", _columns("word reading " + _SOURCED, word=_name, source=_name), ("word",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
     # A character. *mesh* is `built:NAME` for the shipped ones, or a file in the character's folder.
-    Table("characters/{character}/character.tsv", _columns("character pose_set drawing title " + _SOURCED, character=_name, pose_set=_name, source=_name), ("character",)),
+    Table(
+        "characters/{character}/character.tsv",
+        _columns("character pose_set drawing title " + _SOURCED, character=_name, pose_set=_name, source=_name),
+        ("character",),
+    ),
     Table("characters/{character}/links.tsv", _LINK, ("pose", "shape")),
     Table("characters/{character}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
-    Table("characters/{character}/mapping.tsv", _columns("language phone common " + _PROVENANCE, language=_name, **_MAPPING), ("language", "phone")),
+    Table(
+        "characters/{character}/mapping.tsv",
+        _columns("language phone common " + _PROVENANCE, language=_name, **_MAPPING),
+        ("language", "phone"),
+    ),
 )  # fmt: skip
 
 
