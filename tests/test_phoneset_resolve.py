@@ -22,6 +22,7 @@ TONAL = {"n": ("initial", "n", "d"), "i": ("final", "i", "ih"), "ua": ("final", 
          "b": ("initial", "p", "bmp"), "ü": ("final", "y", "w"), "er": ("final", "ɑ ɻ", "er")}  # fmt: skip
 ALIASES = [
     ("espeak", "p", "P"), ("espeak", "ɑː", "A"), ("espeak", "ɑːɹ", "A R"), ("espeak", "ɪ", "I"), ("espeak", "ɹ", "R"), ("espeak", "t", "T"),
+    ("espeak", "i", "I"),
     ("arpabet", "P", "P"), ("arpabet", "AA", "A"), ("arpabet", "IH", "I"), ("arpabet", "R", "R"), ("arpabet", "AY", "Y"),
     ("sppas", "3:r", "A R"), ("sppas", "4", "T"), ("sppas", "p", "P"), ("sppas", "i", "I"),
     ("other", "p", "T"), ("other", "hush", "_"),
@@ -179,6 +180,11 @@ def test_ipa_symbols_in_a_row_are_split_longest_first():
     assert symbols(["tɑːɹ"], "espeak") == ["T", "A", "R"]
     with pytest.raises(UnknownSymbolError):
         XX.resolve(said(["AAR"], "arpabet"))
+
+
+def test_plain_words_are_not_taken_for_ipa_symbols_in_a_row():
+    with pytest.raises(UnknownSymbolError, match="'pit'"):
+        XX.resolve(said(["pit"], "espeak"))
 
 
 def test_a_phone_too_short_to_share_says_so():

@@ -100,8 +100,11 @@ class Symbols:
         return tuple(phone for parts in found for phone in parts) if all(found) else ()
 
     def _row_of(self, text: str, table: Mapping[str, Parts], notation: str) -> Parts:
-        """The phones of IPA symbols in a row, longest first, if they cover all of *text*; IPA symbols can't be misread so."""
-        if notation not in IPA_NOTATIONS:
+        """The phones of IPA symbols in a row, longest first, if they cover all of *text*.
+
+        Not for plain ASCII, which may be a word: a tier of words is no tier of phones.
+        """
+        if notation not in IPA_NOTATIONS or text.isascii():
             return ()
         found: list[str] = []
         while text:
