@@ -24,7 +24,7 @@ def robin() -> Mesh:
     """Build the head: the same numbers every time."""
     surface = head_surface()
     places = {UPPER: "upper", LOWER: "lower", RIGHT: "right", LEFT: "left"}
-    landmarks = {name: (0, surface.mouth.lip(place)) for name, place in places.items()}
+    landmarks = {name: (0, surface.mouth.lip_vertex(place)) for name, place in places.items()}
     head, shapes = surface.mouth.positions, _shapes(surface)
     parts = [_head(surface, shapes), *lids(head, shapes), *eyeballs(), *brows(), *ears(), *teeth(), tongue(), hair(), neck(), shirt()]
     return Mesh("robin", tuple(part.rounded() for part in parts), landmarks)
@@ -33,7 +33,7 @@ def robin() -> Mesh:
 def _shapes(surface: HeadSurface) -> dict[str, Floats]:
     mouth = surface.mouth
     fade = 1 - 0.75 * smoothstep(0.1, 0.6, mouth.depth)
-    return {**mouth_shapes(surface), **skin_shapes(mouth.positions, fade)}
+    return {**mouth_shapes(mouth), **skin_shapes(mouth.positions, fade)}
 
 
 def _head(surface: HeadSurface, shapes: dict[str, Floats]) -> Part:

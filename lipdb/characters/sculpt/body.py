@@ -14,6 +14,11 @@ from lipdb.characters.sculpt.head import ORIGIN, SKIN, form
 from lipdb.characters.sculpt.head_shapes import skin_shapes
 
 HAIR = srgb("#5a3826")
+# The shirt's outline, turned about the neck: distance and height, from inside of the collar to the shoulders.
+COLLAR = (
+    (0.37, -1.17), (0.405, -1.12), (0.455, -1.085), (0.50, -1.11), (0.51, -1.17), (0.55, -1.23),
+    (0.72, -1.30), (0.95, -1.40), (1.15, -1.56), (1.24, -1.80), (1.27, -2.2),
+)  # fmt: skip
 
 
 def brows(rows: int = 18, columns: int = 8) -> list[Part]:
@@ -43,12 +48,8 @@ def ears() -> list[Part]:
     rim = np.hypot(unit[:, 1], unit[:, 2])
     outside = smoothstep(0, 0.5, unit[:, 0])
     hollow = outside * smoothstep(0.80, 0.55, rim)
-    x = (
-        unit[:, 0] * 0.050
-        - 0.050 * hollow
-        + 0.026 * outside * bump(rim - 0.84, 0.07)
-        + 0.014 * outside * bump(rim - 0.55, 0.06) * (unit[:, 2] < 0.35)
-    )
+    ridges = 0.026 * bump(rim - 0.84, 0.07) + 0.014 * bump(rim - 0.55, 0.06) * (unit[:, 2] < 0.35)
+    x = unit[:, 0] * 0.050 - 0.050 * hollow + outside * ridges
     y = unit[:, 1] * 0.175 * (1 + 0.10 * unit[:, 1])
     z = unit[:, 2] * 0.110 * (1 + 0.25 * unit[:, 1])
     c, s = np.cos(0.45), np.sin(0.45)
@@ -74,21 +75,7 @@ def neck(rows: int = 9, columns: int = 30) -> Part:
 
 def shirt(rows: int = 19, columns: int = 32) -> Part:
     """Collar and shoulders."""
-    outline = np.array(
-        [
-            (0.37, -1.17),
-            (0.405, -1.12),
-            (0.455, -1.085),
-            (0.50, -1.11),
-            (0.51, -1.17),
-            (0.55, -1.23),
-            (0.72, -1.30),
-            (0.95, -1.40),
-            (1.15, -1.56),
-            (1.24, -1.80),
-            (1.27, -2.2),
-        ]
-    )
+    outline = np.array(COLLAR)
     place = np.linspace(0, len(outline) - 1, rows)
     radius, height = (np.interp(place, np.arange(len(outline)), outline[:, k]) for k in (0, 1))
     around = np.linspace(0, 2 * np.pi, columns, endpoint=False)

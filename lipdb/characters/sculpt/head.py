@@ -68,10 +68,9 @@ def _nose(points: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeadSurface:
-    """The head's mesh, with *lip* 0 where the lips meet and 1 at the border of the red, and its colours."""
+    """The head's mesh and its colours."""
 
     mouth: MouthSurface
-    lip: Floats
     colours: Floats
 
 
@@ -86,12 +85,12 @@ def head_surface(rows: int = 72, columns: int = 100) -> HeadSurface:
     border = np.arcsinh(mix(LIP_LOWER, LIP_UPPER + bow, smoothstep(-0.4, 0.4, sine)) / HALF_WIDTH)
     lip = mu / border
     surface = _lips(bare, normals, lip, np.abs(sine) ** 0.55, sine, mu)
-    mouth = with_bag(slit, surface, BAG, (0, -0.43, 0.80))
+    mouth = with_bag(slit, surface, lip, BAG, (0, -0.43, 0.80))
     colours = np.concatenate([np.tile(SKIN, (mouth.bag_size, 1)), _skin(bare, normals, lip, np.abs(sine) ** 0.55), [SKIN, SKIN]])
     inner = slice(0, mouth.bag_size)
     colours[inner] = tint(INSIDE, srgb("#2a0c0e"), smoothstep(0.15, 0.75, mouth.depth[inner]))
     colours[-2] = srgb("#1a0506")
-    return HeadSurface(mouth, mouth.extend(lip), colours)
+    return HeadSurface(mouth, colours)
 
 
 def _lips(bare: Floats, normals: Floats, lip: Floats, taper: Floats, sine: Floats, mu: Floats) -> Floats:

@@ -79,7 +79,8 @@ class Slit:
 class MouthSurface:
     """Bag, surface and the two end points as one mesh, with each vertex's place in the grid.
 
-    *sine* and *cosine* of theta, *mu*, and *depth*: 0 on the surface, rising to 1 at the throat.
+    *sine* and *cosine* of theta, *mu*, *lip* (0 where the lips meet, 1 at the border of the red), and *depth*: 0 on the
+    surface, rising to 1 at the throat.
     """
 
     positions: Floats
@@ -87,6 +88,7 @@ class MouthSurface:
     mu: Floats
     sine: Floats
     cosine: Floats
+    lip: Floats
     depth: Floats
     bag_size: int
     columns: int
@@ -96,35 +98,39 @@ class MouthSurface:
         """The vertices outside of the mouth."""
         return slice(self.bag_size, len(self.positions) - 2)
 
-    def lip(self, place: str) -> int:
+    @property
+    def line(self) -> Floats:
+        """The points where the lips meet, all round, ``(columns, 3)``."""
+        return self.positions[self.bag_size : self.bag_size + self.columns]
+
+    def lip_vertex(self, place: str) -> int:
         """The vertex on the line of the lips at *place*: upper, lower, right (+x) or left."""
         return self.bag_size + {"right": 0, "upper": 1, "left": 2, "lower": 3}[place] * self.columns // 4
 
-    def extend(self, values: Floats) -> Floats:
-        """Values of the surface carried into the bag: each bag point takes those of its lip point."""
-        first, last = values[: self.columns], values[-self.columns :]
-        rings = self.bag_size // self.columns
-        return np.concatenate([np.tile(first, (rings,) + (1,) * (values.ndim - 1)), values, [first.mean(0)], [last.mean(0)]])
 
-
-def with_bag(slit: Slit, surface: Floats, bag: Bag, middle: Point) -> MouthSurface:
+def with_bag(slit: Slit, surface: Floats, lip: Floats, bag: Bag, middle: Point) -> MouthSurface:
     """Close *surface* (the points of *slit*) at the back, and put the bag behind its lips; *middle* is the bag's height."""
     n, rings = slit.columns, len(bag.depth)
     lips, sine = surface[:n], np.sin(slit.theta[:n])
     inner = []
-    for depth, height, width in zip(bag.depth, bag.height, bag.width, strict=True):
+    for behind, height, width in zip(bag.depth, bag.height, bag.width, strict=True):
         settle = min(1.0, 3 * height / max(bag.height))
         x = lips[:, 0] * width
         y = lips[:, 1] + (middle[1] - lips[:, 1]) * settle + height * np.sign(sine) * np.abs(sine) ** 0.8
-        z = lips[:, 2] + (middle[2] - lips[:, 2]) * settle * 0.6 - depth
+        z = lips[:, 2] + (middle[2] - lips[:, 2]) * settle * 0.6 - behind
         inner.append(np.stack([x, y, z], axis=-1))
     positions = np.concatenate([*inner[::-1], surface, [inner[-1].mean(0)], [surface[-n:].mean(0)]])
     last = len(positions) - 2
     ring = np.arange(n)
     faces = np.concatenate([grid_faces(rings + slit.rows, n), fan_faces(last, ring)[:, ::-1], fan_faces(last + 1, ring + last - n)])
-    depth_of = np.concatenate([np.repeat(np.arange(rings, 0, -1) / rings, n), np.zeros(len(surface)), [1.0], [0.0]])
-    made = MouthSurface(positions, faces, slit.mu, np.sin(slit.theta), np.cos(slit.theta), depth_of, rings * n, n)
     ahead = np.zeros_like(positions)
-    ahead[made.surface] = surface - slit.origin
-    parts = {name: made.extend(getattr(made, name)) for name in ("mu", "sine", "cosine")}
-    return MouthSurface(positions, outward(positions, faces, ahead), depth=depth_of, bag_size=rings * n, columns=n, **parts)
+    ahead[rings * n : last] = surface - slit.origin
+    depth = np.concatenate([np.repeat(np.arange(rings, 0, -1) / rings, n), np.zeros(len(surface)), [1.0], [0.0]])
+    fields = [_extend(values, n, rings) for values in (slit.mu, np.sin(slit.theta), np.cos(slit.theta), lip)]
+    return MouthSurface(positions, outward(positions, faces, ahead), fields[0], fields[1], fields[2], fields[3], depth, rings * n, n)
+
+
+def _extend(values: Floats, columns: int, rings: int) -> Floats:
+    """Values of the surface carried into the bag of *rings*: each bag point takes those of its lip point."""
+    first, last = values[:columns], values[-columns:]
+    return np.concatenate([np.tile(first, rings), values, [first.mean()], [last.mean()]])
