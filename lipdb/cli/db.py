@@ -93,10 +93,10 @@ def upgrade(options: Options, as_json: bool) -> None:
             click.echo(f"{one.path}\t{' '.join(one.key)}\tchanged by both sides; yours stays")
         click.echo(
             f"{store.where}: schema {done.schema}, {len(merged.followed)} rows followed, {len(merged.kept)} edited rows kept, "
-            f"{len(merged.conflicts)} conflicts"
+            f"{len(merged.conflicts)} in conflict"
         )
     if merged.conflicts:
-        raise ConflictError(f"{len(merged.conflicts)} rows changed on both sides; yours stay: {merged.conflicts[0]}")
+        raise ConflictError(f"{store.where}: rows were changed by both sides; yours stay: {merged.conflicts[0]}")
 
 
 @db.command()
@@ -117,7 +117,7 @@ def check(options: Options, as_json: bool) -> None:
         for one in found:
             click.echo(str(one))
     if found:
-        raise DataError(f"{store.where}: {len(found)} findings; mend the text (lipdb db dump, lipdb db load) or put a backup in its place")
+        raise DataError(f"{store.where}: not in order; mend the rows (lipdb db dump, lipdb db load) or put a backup in its place")
     click.echo(f"{store.where}: all is well", err=True)
 
 

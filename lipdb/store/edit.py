@@ -10,11 +10,11 @@ import sqlalchemy as sa
 
 from lipdb.curated.schema import TIME_FORMAT, Table, table_of
 from lipdb.curated.tsv import Row, canonical_row, key_of
-from lipdb.errors import InputError, PhonesetError
+from lipdb.errors import PhonesetError
 from lipdb.store.cells import Place
 from lipdb.store.conflict import EditConflictError, Versions
 from lipdb.store.provenance import completed, signed
-from lipdb.store.revisions import Changed, Present, author_of, last_change, present_rows, write
+from lipdb.store.revisions import Changed, Present, author_name, author_of, last_change, present_rows, write
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +31,8 @@ class Edit:
     """
 
     def __init__(self, *, author: str, note: str = "", by_hand: bool = True) -> None:
-        self.author = " ".join(author.split())
-        if not self.author:
-            raise InputError("edit: there is no author; every change names who made it")
-        self.note = " ".join(note.split())
+        self.author = author_name(author)
+        self.note = note
         self.time = datetime.now(UTC).strftime(TIME_FORMAT)
         self.revision: int | None = None
         self._by_hand = by_hand

@@ -28,7 +28,9 @@ def schema_of(connection: sa.Connection, where: str) -> str:
 
 
 def require_current(schema: str, where: str) -> None:
-    """Raise `SchemaVersionError` unless *schema* is this program's."""
+    """Raise `SchemaVersionError` unless *schema* is this program's, `StoreError` when there is none."""
+    if not schema:
+        raise StoreError(f"{where}: there is no database yet; run: lipdb db init")
     if schema in OLDER_SCHEMAS:
         raise SchemaVersionError(f"{where}: the database has schema {schema}, this lipdb needs {SCHEMA}; run: lipdb db upgrade")
     if schema != SCHEMA:

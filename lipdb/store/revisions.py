@@ -10,6 +10,7 @@ from operator import itemgetter
 import sqlalchemy as sa
 
 from lipdb.curated.tsv import Row
+from lipdb.errors import InputError
 from lipdb.store.cells import Flat, Place, cells_text, flat, key_text, records_from, row_from
 from lipdb.store.tables import change, record, revision
 
@@ -33,10 +34,19 @@ class Changed:
     after: Row | None
 
 
+def author_name(author: str) -> str:
+    """*author* on one line. Raises `InputError` when nothing is left: every change names who made it."""
+    name = " ".join(author.split())
+    if not name:
+        raise InputError("edit: there is no author; every change names who made it")
+    return name
+
+
 def write(connection: sa.Connection, changes: Sequence[Changed], *, author: str, time: str, note: str) -> int:
     """Make one revision of *changes* and apply them to the records; its number."""
     number = newest_revision(connection) + 1
-    connection.execute(sa.insert(revision), {"id": number, "author": author, "time": time, "note": note})
+    signature = {"author": author_name(author), "time": time, "note": " ".join(note.split())}
+    connection.execute(sa.insert(revision), {"id": number, **signature})
     texts = [_texts(changed) for changed in changes]
     connection.execute(sa.insert(change), [{"revision_id": number, **text} for text in texts])
     _apply(connection, sa.delete(record).where(*_named()), [t for t in texts if t["after"] is None], number)
