@@ -17,7 +17,7 @@ OWN = {"origin": "authored", "source": "me", "licence": "CC0-1.0", "author": "me
 COMMON = {"_": "silence", "bmp": "consonant", "d": "consonant", "sh": "consonant", "r": "consonant", "kg": "consonant",
           "aa": "vowel", "ah": "vowel", "ih": "vowel", "ay": "vowel", "er": "vowel", "w": "vowel"}  # fmt: skip
 PHONES = {"P": ("consonant", "p", "bmp"), "T": ("consonant", "t", "d"), "S": ("consonant", "ʃ", "sh"), "R": ("consonant", "ɹ", "r"),
-          "A": ("vowel", "ɑ", "aa"), "I": ("vowel", "ɪ", "ih"), "Y": ("vowel", "aɪ", "ay"), "q": ("consonant", "t͡ɕ", "sh")}  # fmt: skip
+          "A": ("vowel", "ɑ", "aa"), "I": ("vowel", "ɪ", "ih"), "Y": ("vowel", "aɪ", "ay"), "q": ("consonant", "t͡ʒ", "sh")}  # fmt: skip
 TONAL = {"n": ("initial", "n", "d"), "i": ("final", "i", "ih"), "ua": ("final", "w ä", "w aa"), "ua+r": ("erhua", "w ä ɻ", "w aa er"),
          "b": ("initial", "p", "bmp"), "ü": ("final", "y", "w"), "er": ("final", "ɑ ɻ", "er")}  # fmt: skip
 ALIASES = [
@@ -25,7 +25,7 @@ ALIASES = [
     ("espeak", "i", "I"),
     ("arpabet", "P", "P"), ("arpabet", "AA", "A"), ("arpabet", "IH", "I"), ("arpabet", "R", "R"), ("arpabet", "AY", "Y"),
     ("sppas", "3:r", "A R"), ("sppas", "4", "T"), ("sppas", "p", "P"), ("sppas", "i", "I"),
-    ("other", "p", "T"), ("other", "hush", "_"),
+    ("ipa", "ʃ", "S"), ("ipa", "i", "P"), ("other", "p", "T"), ("other", "hush", "_"),
 ]  # fmt: skip
 
 
@@ -195,6 +195,19 @@ def test_a_phone_too_short_to_share_says_so():
 # Which notation
 
 
+def test_a_language_without_aliases_is_read_in_every_notation_of_ipa_and_sampa():
+    own = {**RECORDS["yy/language.tsv"]["yy",], "language": "zz", "notation": "ipa"}
+    rows = {(phone,): {**RECORDS["xx/phones.tsv"]["A",], "phone": phone, "common": common} for phone, common in (("ɑ", "aa"), ("ts", "d"))}
+    zz = PhoneSet.from_records({**RECORDS, "zz/language.tsv": {("zz",): own}, "zz/phones.tsv": rows}, "zz")
+    assert symbols(["ts", "ˈɑː", "ʁ"], "espeak", zz) == ["ts", "ɑ", "[ʁ]"]
+    assert symbols(["R", "x"], "xsampa", zz) == ["[ʁ]", "[x]"]
+
+
+def test_what_a_tool_writes_goes_before_what_the_ipa_says():
+    assert symbols(["p", "i"], "espeak") == ["P", "I"]
+    assert symbols(["ʃ"], "mfa") == ["S"]
+
+
 def test_without_a_notation_the_one_that_knows_most_is_taken():
     assert symbols(["p", "3:r", "4", "#"]) == ["P", "A", "R", "T", SILENCE]
     assert XX.notation_of(said(["P", "AA1", "R"])) == "arpabet"
@@ -256,11 +269,11 @@ def test_a_segment_is_never_taken_for_a_phone_that_is_written_alike():
 
 def test_unknown_symbols_are_all_counted_with_the_nearest_phone_and_why():
     with pytest.raises(UnknownSymbolError) as caught:
-        XX.resolve(said(["ʃ", "p", "ʃ", "§"], "espeak"))
+        XX.resolve(said(["ʒ", "p", "ʒ", "§"], "espeak"))
     text = str(caught.value)
     assert "\n" not in text
     assert "2 unknown symbols in notation espeak" in text
-    assert "'ʃ' (2x, nearest 'S', by articulation it is sh:" in text
+    assert "'ʒ' (2x, nearest 'S', by articulation it is sh:" in text
     assert "'§' (1x, nothing is known of it" in text
 
 
@@ -270,13 +283,13 @@ def test_a_misspelt_symbol_is_met_with_the_one_written_alike():
 
 
 def test_on_demand_unknown_symbols_are_mapped_by_articulation_and_still_reported():
-    schedule, unknown = XX.resolve(said(["ʃ", "p", "ʃ"], "espeak"), allow_unknown=True)
+    schedule, unknown = XX.resolve(said(["ʒ", "p", "ʒ"], "espeak"), allow_unknown=True)
     assert [(p.common, p.layer) for p in schedule.phones] == [
         (("sh",), "articulation"),
         (("bmp",), "language:xx"),
         (("sh",), "articulation"),
     ]
-    assert [(u.symbol, u.count, u.proposal) for u in unknown] == [("ʃ", 2, "S")]
+    assert [(u.symbol, u.count, u.proposal) for u in unknown] == [("ʒ", 2, "S")]
 
 
 def test_a_symbol_of_which_nothing_is_known_becomes_a_neutral_vowel_never_silence():

@@ -20,7 +20,8 @@ Parts = tuple[str, ...]
 class Symbols:
     """What the labels of each notation stand for in one language.
 
-    *own* is the notation whose symbols are the phones themselves; *aliases* has notation -> symbol -> phones; *marks* are
+    *own* is the notation whose symbols are the phones themselves; *aliases* has notation -> symbol -> phones, where
+    notations that write IPA also know the aliases of ``ipa``, and those that write SAMPA those of ``xsampa``; *marks* are
     labels of pauses and noises in any notation; *segments* are the IPA segments that the common table knows, and *xsampa*
     their X-SAMPA spellings.
     """
@@ -37,12 +38,13 @@ class Symbols:
     @classmethod
     def from_records(cls, records: Records, language: str, own: str) -> Symbols:
         """The symbols of *language*."""
-        aliases: dict[str, dict[str, Parts]] = {own: {}}
-        for row in records.get(f"{language}/aliases.tsv", {}).values():
-            aliases.setdefault(row["notation"], {})[row["symbol"]] = tuple(row["phones"].split())
         phones = [row["phone"] for row in records.get(f"{language}/phones.tsv", {}).values()]
+        aliases = _aliases(records, language)
         # A phone's own name goes before an alias, so what was resolved once stays as it is.
-        aliases[own] |= {phone: (phone,) for phone in phones}
+        aliases[own] = aliases.get(own, {}) | {phone: (phone,) for phone in phones}
+        for family, base in ((IPA_NOTATIONS, "ipa"), (SAMPA_NOTATIONS, "xsampa")):
+            shared = aliases.get(base, {})
+            aliases |= {notation: shared | aliases.get(notation, {}) for notation in family}
         ipa = records.get("ipa.tsv", {}).values()
         return cls(
             own,
@@ -57,8 +59,7 @@ class Symbols:
     @property
     def notations(self) -> tuple[str, ...]:
         """Every notation that the language reads, its own first."""
-        others = set(self.aliases) | ({"ipa", "xsampa"} if self.segments else set())
-        return (self.own, *sorted(others - {self.own}))
+        return (self.own, *sorted(self.aliases.keys() - {self.own}))
 
     def parts(self, symbol: str, notation: str, *, common: bool = True) -> Parts:
         """The phones that *symbol* of *notation* stands for, ``_`` for a pause; nothing when it is unknown.
@@ -124,3 +125,10 @@ class Symbols:
         if notation in IPA_NOTATIONS:
             return symbol
         return self.xsampa.get(symbol, "") if notation in SAMPA_NOTATIONS else ""
+
+
+def _aliases(records: Records, language: str) -> dict[str, dict[str, Parts]]:
+    found: dict[str, dict[str, Parts]] = {}
+    for row in records.get(f"{language}/aliases.tsv", {}).values():
+        found.setdefault(row["notation"], {})[row["symbol"]] = tuple(row["phones"].split())
+    return found
