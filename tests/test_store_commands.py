@@ -92,6 +92,19 @@ def test_history_lists_revisions_and_the_changes_of_one(lipdb, edited):
     assert lipdb("history", "--revision", 2)[1] == (f"path\tkey\tbefore\tafter\n{CURVES}\taa bmp PBM\tkeys 0:0 0.5:0.9 1:1\tkeys 0:0 1:1\n")
 
 
+def test_history_compares_two_revisions(lipdb, edited):
+    lipdb("undo", 2)
+    assert json.loads(lipdb("history", "--since", 1, "--json")[1]) == []
+    (change,) = json.loads(lipdb("history", "--since", 3, "--revision", 2, "--json")[1])
+    assert (change["before"]["keys"], change["after"]["keys"]) == ("0:0 0.5:0.9 1:1", "0:0 1:1")
+    assert lipdb("history", "constraints/", "--since", 1, "--revision", 2)[1] == "path\tkey\tbefore\tafter\n"
+
+
+def test_an_old_state_can_be_dumped(lipdb, edited, tmp_path):
+    assert lipdb("dump", tmp_path / "old", "--revision", 1) == (0, f"{tmp_path / 'old'}: revision 1\n", "")
+    assert read_folder(tmp_path / "old") == read_folder(TEXT)
+
+
 def test_undo_takes_a_revision_back_once(lipdb, edited):
     assert lipdb("undo", 2) == (0, "revision 3 takes back revision 2\n", "")
     assert lipdb("undo", 2, "--json") == (0, json.dumps({"revision": None, "undone": 2}, indent=2) + "\n", "")

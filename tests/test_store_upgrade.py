@@ -2,6 +2,8 @@
 
 import shutil
 import sys
+import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -243,3 +245,18 @@ def test_opening_an_up_to_date_database_does_not_import_alembic(file, monkeypatc
     assert store.records()
     store.close()
     assert "alembic" not in sys.modules
+
+
+def test_opening_and_reading_five_thousand_rows_takes_less_than_150_ms(tmp_path):
+    file = tmp_path / "a.db"
+    with closing(Store.open(file, TEXT)) as store, store.edit(author="anna") as edit:
+        for i in range(5000):
+            edit.put(CURVES, {"left": f"a{i}", "right": "bmp", "pose": "PBM", "keys": "0:0 0.25:0.5 0.5:0.9 1:1", "warp": "border"})
+    times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        with closing(Store.open(file, TEXT)) as store:
+            rows = store.records()[CURVES]
+        times.append(time.perf_counter() - start)
+    assert len(rows) == 5006
+    assert min(times) < 0.150

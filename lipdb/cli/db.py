@@ -123,17 +123,19 @@ def check(options: Options, as_json: bool) -> None:
 
 @db.command()
 @click.argument("folder", type=_FOLDER)
+@click.option("-r", "--revision", type=int, help="The state at this revision instead of the newest.")
 @click.pass_obj
-def dump(options: Options, folder: Path) -> None:
+def dump(options: Options, folder: Path, revision: int | None) -> None:
     """Write the records as canonical text into FOLDER, to be read, reviewed and merged like code.
 
     Tables that the database does not have are removed from FOLDER.
 
     \b
-    Example:
+    Examples:
       lipdb db dump review/
+      lipdb db dump monday/ --revision 12
     """
-    click.echo(f"{folder}: revision {_open(options).dump(folder)}")
+    click.echo(f"{folder}: revision {_open(options).dump(folder, revision)}")
 
 
 @db.command()
@@ -168,10 +170,13 @@ def load(options: Options, folder: Path, since: int | None, author: str, note: s
 @click.argument("path", required=False)
 @click.argument("key", nargs=-1)
 @click.option("-n", "--limit", type=click.IntRange(min=1), default=20, show_default=True, help="How many revisions.")
-@click.option("-r", "--revision", type=int, help="Show what this revision changed.")
+@click.option("-r", "--revision", type=int, help="Show the rows that this revision changed.")
+@click.option("--since", type=int, metavar="REVISION", help="Show the rows that differ between this revision and now (or --revision).")
 @json_option
 @click.pass_obj
-def history(options: Options, path: str | None, key: tuple[str, ...], limit: int, revision: int | None, as_json: bool) -> None:
+def history(
+    options: Options, path: str | None, key: tuple[str, ...], limit: int, revision: int | None, since: int | None, as_json: bool
+) -> None:
     """List the revisions, newest first: all, those of the tables whose path begins with PATH, or of the row with KEY.
 
     \b
@@ -179,13 +184,17 @@ def history(options: Options, path: str | None, key: tuple[str, ...], limit: int
       lipdb db history
       lipdb db history curves/facefx.tsv ao bmp open
       lipdb db history --revision 12
+      lipdb db history cmn/ --since 12
     """
     store = _open(options)
-    if revision is None:
+    if revision is None and since is None:
         rows = [one.to_json() for one in store.history(path, key or None, limit=limit)]
         print_listing(rows, as_json=as_json, columns=("revision", "time", "author", "rows", "note"))
         return
-    changes = [one for one in store.changes(revision, path) if not key or one.key == key]
+    newest = store.revision if revision is None else revision
+    changes = store.changes(newest, path) if since is None else store.diff(since, newest, path)
+    if key:
+        changes = [one for one in changes if one.key == key]
     if as_json:
         print_json([one.to_json() for one in changes])
     else:

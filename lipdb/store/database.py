@@ -70,11 +70,15 @@ class Store:
         Raises `StoreError` when it can't be used, `SchemaVersionError` when its schema is older or newer.
         """
         store = cls.locate(place, phonesets)
-        schema = store._schema()
-        if schema:
-            require_current(schema, store.where)
-        else:
-            create(store._url, store.phonesets, time=_now())
+        try:
+            schema = store._schema()
+            if schema:
+                require_current(schema, store.where)
+            else:
+                create(store._url, store.phonesets, time=_now())
+        except BaseException:
+            store.close()
+            raise
         return store
 
     @classmethod
@@ -192,14 +196,14 @@ class Store:
         with self._writing() as connection:
             return load_text(connection, records, since=since, author=author, time=_now(), note=note or f"Load {folder.name}")
 
-    def dump(self, folder: Path) -> int:
-        """Write the records as canonical text below *folder*; the revision they are of.
+    def dump(self, folder: Path, number: int | None = None) -> int:
+        """Write the records, or those of revision *number*, as canonical text below *folder*; the revision they are of.
 
         Tables that the store does not have are removed from it, so that loading it gives this state again.
         """
-        records, number = self.snapshot()
+        records, newest = self.snapshot() if number is None else (self.at(number), number)
         dump_text(records, folder)
-        return number
+        return newest
 
     # Care
 

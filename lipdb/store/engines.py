@@ -129,5 +129,5 @@ def description(engine: sa.Engine) -> str:
     """The kind of database: its version, and for a SQLite file its journal."""
     if engine.dialect.name != "sqlite":
         return engine.dialect.name
-    journal = "write-ahead log" if WAL_IS_SAFE else "rollback journal: the log of this SQLite can damage files"
+    journal = "write-ahead log" if WAL_IS_SAFE else "rollback journal, as the write-ahead log of this version can damage files"
     return f"SQLite {sqlite3.sqlite_version}, {journal}"
