@@ -58,6 +58,13 @@ def test_length_stays_in_the_label_if_the_alias_table_has_it_so_and_is_an_attrib
     assert (see.symbol, see.long) == ("i", True)
 
 
+def test_a_vowel_that_espeak_writes_twice_is_one_long_vowel():
+    voice = EspeakVoice("en-us", "en", "Latn", frozenset({"ɐ", "æ"}))
+    phones = voice.speak("aaaaaa").schedule.phones
+    assert {phone.symbol for phone in phones} == {"_", "ɐ", "æ"}
+    assert all(phone.long for phone in phones if not phone.silent)
+
+
 def test_a_comma_gives_a_pause_of_silence():
     schedule = VOICE.speak("Yes, no").schedule
     pauses = [i for i, phone in enumerate(schedule.phones) if phone.silent]

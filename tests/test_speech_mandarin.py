@@ -11,8 +11,8 @@ from lipdb.speech.mandarin import PinyinVoice, pinyin_voice, split_ipa
 from lipdb.speech.pinyin import Foreign, Pause, Syllable
 
 SYLLABLES = """
-a:a an:an ba:b+a bei:b+ei dian:d+ian er:er ge:g+e guo:g+uo hao:h+ao hua:h+ua hui:h+uei jing:j+ing ji:j+i kai:k+ai le:l+e ling:l+ing
-lü:l+ü lüan:l+üan m:m ma:m+a men:m+en nian:n+ian ni:n+i nü:n+ü qi:q+i ren:r+en san:s+an shi:sh+-i(zh) shou:sh+ou si:s+-i(z) wo:uo
+a:a an:an ba:b+a bei:b+ei dian:d+ian er:er ge:g+e guo:g+uo hao:h+ao hua:h+ua hui:h+uei
+jing:j+ing ji:j+i ju:j+ü nüe:n+üe kai:k+ai le:l+e ling:l+ing lü:l+ü lüan:l+üan m:m ma:m+a men:m+en nian:n+ian ni:n+i nü:n+ü qi:q+i ren:r+en san:s+an shi:sh+-i(zh) shou:sh+ou si:s+-i(z) wo:uo
 xi:x+i xian:x+ian xiong:x+iong yi:i yong:iong zhong:zh+ong zi:z+-i(z) bai:b+ai fen:f+en zhi:zh+-i(zh) wu:u shu:sh+u na:n+a kan:k+an
 """
 ERHUA = ("ua+r", "ian+r", "uei+r", "a+r")
@@ -42,7 +42,7 @@ VOICE = pinyin_voice(_records(), "cmn")
 def _read(text: str) -> list[str]:
     """Syllables with tones, punctuation, and foreign words in brackets."""
     shown = []
-    for token in VOICE.reader.read(text):
+    for token in VOICE.reader.read(text).tokens:
         match token:
             case Syllable():
                 shown.append(f"{token.plain}{token.tone}")
@@ -80,6 +80,8 @@ def test_characters_become_initials_and_finals_with_the_tone_on_the_final():
         ("huar1 dianr3", ["huar1", "dianr3"]),
         ("nǚér", ["nü3", "er2"]),
         ("ma ma0 ma5", ["ma5", "ma5", "ma5"]),
+        ("ni3,hao3", ["ni3", ",", "hao3"]),
+        ("nue4 jü1 m̀", ["nüe4", "ju1", "m4"]),
     ],
 )
 def test_pinyin_with_numbers_or_marks(text: str, read: list[str]):
@@ -129,6 +131,19 @@ def test_latin_words_among_characters_are_read_as_english_with_a_note():
     assert VOICE.phones("我用iPhone")[2] == ("[aɪ]", "[f]", "[əʊ]", "[n]")
 
 
+def test_a_single_letter_among_characters_is_said_by_its_name():
+    assert _symbols("我A4")[2] == "[eɪ]"
+    assert VOICE.phones("我A4")[1] == ("[eɪ]",)
+
+
+def test_signs_that_nobody_reads_are_noted():
+    assert VOICE.speak("你²好%").notes == ("text: ² % can't be read and is left out",)
+
+
+def test_a_repetition_mark_repeats():
+    assert _read("人々") == ["ren2", "ren2"]
+
+
 def test_words_that_look_like_pinyin_without_tones_are_english_among_characters():
     assert _read("我kan手") == ["wo3", "<kan>", "shou3"]
     assert _read("我kàn手") == ["wo3", "kan4", "shou3"]
@@ -164,6 +179,8 @@ def test_every_syllable_of_the_table_is_said_whole_in_every_tone():
     [
         ("", "nothing in '' can be spoken"),
         ("。。。", "nothing in"),
+        ("ong1", "'ong' is neither Chinese nor pinyin"),
+        ("fiao4", "neither Chinese nor pinyin"),
         ("Hello world", "'Hello' is neither Chinese nor pinyin"),
         ("Привет", "Cyrillic letters"),
         ("こんにちは", "Hiragana letters"),
@@ -195,6 +212,8 @@ def test_a_foreign_label_is_cut_into_segments_that_the_common_layer_knows():
     assert split_ipa("ˈɑːɹ1", known) == ["ɑ", "ɹ"]
     assert split_ipa("aɪ22", known) == ["aɪ"]
     assert split_ipa("əʊəʊ", known) == ["əʊ"]
+    assert split_ipa("ɒɜ", {"ɒ", "ɜ"}) == ["ɒ"]
+    assert split_ipa("ɜː", {"ɜ"}) == ["ɜ"]
     assert split_ipa("iː", known) == ["iː"]
     assert split_ipa("ʘɹ", known) == ["ʘ", "ɹ"]
 

@@ -11,7 +11,20 @@ LONGEST_NUMBER = 20
 # In front of these two of something is 两, not 二.
 MEASURES = "个只条张本件位名台辆次天年块杯瓶家口间座支把双对种倍届部所"
 CURRENCIES = {"¥": "元", "￥": "元", "$": "美元", "€": "欧元", "£": "英镑"}
-MEASURED = {"km": "公里", "kg": "公斤", "cm": "厘米", "mm": "毫米", "m": "米", "g": "克", "℃": "摄氏度", "°C": "摄氏度", "°": "度"}
+MEASURED = {
+    "km": "公里",
+    "kg": "公斤",
+    "cm": "厘米",
+    "mm": "毫米",
+    "m": "米",
+    "km²": "平方公里",
+    "m²": "平方米",
+    "m³": "立方米",
+    "g": "克",
+    "℃": "摄氏度",
+    "°C": "摄氏度",
+    "°": "度",
+}
 
 _NUMBER = r"\d+(?:,\d{3})+(?:\.\d+)?|\d+(?:\.\d+)?"
 
@@ -91,7 +104,7 @@ _RULES = tuple(
         (r"(?<![\d/])(\d{1,4})/(\d{1,4})(?![\d/])", lambda m: f"{cardinal(m[2])}分之{cardinal(m[1])}"),
         (rf"([¥￥$€£])\s?({_NUMBER})([万亿]?)", lambda m: _number(m[2]) + m[3] + CURRENCIES[m[1]]),
         (rf"({_NUMBER})\s?([-~–—～])\s?(?={_NUMBER})", lambda m: f"{_number(m[1])}到"),
-        (rf"({_NUMBER})\s?(km|kg|cm|mm|m|g|℃|°C|°)(?![A-Za-z])", lambda m: _number(m[1]) + MEASURED[m[2]]),
+        (rf"({_NUMBER})\s?(km²|km|kg|cm|mm|m²|m³|m|g|℃|°C|°)(?![A-Za-z])", lambda m: _number(m[1]) + MEASURED[m[2]]),
         (rf"(?<![\d.])2(?=[{MEASURES}])", lambda _: "两"),
         (rf"(?<![\dA-Za-z一-鿿])[-−]({_NUMBER})", lambda m: f"负{_number(m[1])}"),
         (_NUMBER, lambda m: _number(m[0])),

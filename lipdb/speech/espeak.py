@@ -35,7 +35,7 @@ STRESS = {"ˈ": 1, "ˌ": 2}
 # Where the label says plosive or affricate; [^ʰ...] marks do not change where the closure is.
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
 SWITCH = re.compile(r"\([a-z-]+\)")
-EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?…–—-]+$")
+EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?…–—-]+$")
 
 
 def espeak_voice(records: Records, language: str) -> EspeakVoice:
@@ -92,10 +92,15 @@ class EspeakVoice:
     def _phone(self, label: str, word: int) -> Phone:
         stress = next((level for mark, level in STRESS.items() if mark in label), 0)
         symbol = label.translate({ord(mark): None for mark in STRESS})
-        short = symbol.replace("ː", "")
-        if symbol not in self.symbols and short in self.symbols:
-            symbol = short
-        return Phone(symbol, word=word, stress=stress, long="ː" in label)
+        forms = (symbol, symbol.replace("ː", ""), undoubled(symbol))
+        known = next((form for form in forms if form in self.symbols), symbol)
+        return Phone(known, word=word, stress=stress, long="ː" in label or undoubled(symbol) != symbol)
+
+
+def undoubled(symbol: str) -> str:
+    """``ə`` for ``əə``: espeak writes some lengthened vowels twice."""
+    half = len(symbol) // 2
+    return symbol[:half] if symbol[:half] == symbol[half:] else symbol
 
 
 def phonemize(text: str, voice: str) -> list[list[str]]:

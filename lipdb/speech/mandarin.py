@@ -23,7 +23,7 @@ from lipdb.phones.mapping import bracketed
 from lipdb.phones.syllables import Syllables
 from lipdb.schedule import SILENCE, Phone
 from lipdb.speech import libespeak
-from lipdb.speech.espeak import SETTINGS, language_row, mended_edges, phonemize, without_short_pauses
+from lipdb.speech.espeak import SETTINGS, language_row, mended_edges, phonemize, undoubled, without_short_pauses
 from lipdb.speech.libespeak import Mark
 from lipdb.speech.pinyin import NEUTRAL, Foreign, Pause, PinyinReader, Syllable, Token, has_characters
 from lipdb.speech.text import check_script, clean
@@ -42,7 +42,7 @@ PHONEMES = {
 }  # fmt: skip
 RHOTIC = "[[r]]"
 # As a word by itself this letter would be read as an article.
-LETTERS = {"A": "ay", "a": "ay"}
+LETTERS = {"A": "eh", "a": "eh"}
 INITIAL_SHARE = 0.35
 
 
@@ -114,11 +114,13 @@ class PinyinVoice:
     def _tokens(self, text: str) -> tuple[list[Token], tuple[str, ...]]:
         cleaned, notes = clean(text)
         check_script(cleaned, self.script, language=self.language)
-        tokens = self.reader.read(cleaned)
+        tokens, unread = self.reader.read(cleaned)
         syllables = [token for token in tokens if isinstance(token, Syllable)]
         foreign = [token.written for token in tokens if isinstance(token, Foreign)]
         if foreign:
             notes = (*notes, f"text: {', '.join(dict.fromkeys(foreign))} read as English")
+        if unread:
+            notes = (*notes, f"text: {' '.join(unread)} can't be read and is left out")
         if syllables and not has_characters(cleaned) and all(s.tone == NEUTRAL for s in syllables):
             notes = (*notes, "text: pinyin without tones is read in the neutral tone; write them as ni3 hao3 or nǐ hǎo")
         if not syllables and not foreign:
@@ -183,11 +185,9 @@ def _syllable(syllable: Syllable, word: int, starts: NDArray[np.float64], end: f
 def split_ipa(label: str, segments: Container[str]) -> list[str]:
     """The IPA segments of espeak's *label*, the longest that *segments* knows first; a letter that it lacks stays alone.
 
-    espeak's labels of a foreign word carry Chao digits, and a diphthong can be written twice.
+    espeak's labels of a foreign word carry its Chao digits, of which it writes 3 as ɜ, and a vowel can be written twice.
     """
-    plain = re.sub("[0-9ˈˌ]", "", label)
-    half = len(plain) // 2
-    rest = plain[:half] if half > 1 and plain[:half] == plain[half:] else plain
+    rest = undoubled(re.sub("[0-9ˈˌ]|(?<=.)ɜ$", "", label))
     found = []
     while rest:
         length = next((n for n in range(len(rest), 0, -1) if rest[:n] in segments or rest[:n].replace("ː", "") in segments), 1)

@@ -20,13 +20,15 @@ from lipdb.speech.chinese_numbers import spell_numbers
 NEUTRAL = 5
 PUNCTUATION = {"，": ",", "、": ",", "；": ";", "：": ":", "。": ".", "！": "!", "？": "?", "…": ".", "—": ",", "～": ","}
 PAUSES = ",.!?;:"
+_VOWELLESS = re.compile("h?m|h?ng?|n")
 TONE_MARKS = {"\u0304": 1, "\u0301": 2, "\u030c": 3, "\u0300": 4}
 
 _HAN = "\u3007\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\U00020000-\U0003ffff"
 _TONE_DIGITS = "⁰¹²³⁴⁵"
-_LETTER = rf"[^\W\d_⁰-⁹¹²³¼½¾{_HAN}]"
+_LETTER = rf"(?:[^\W\d_⁰-⁹¹²³¼½¾Ⅰ-ↈ{_HAN}]|[\u0300-\u030c])"
 _TOKEN = re.compile(rf"(?P<han>[{_HAN}]+)|(?P<latin>{_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*[{_TONE_DIGITS}]?)|(?P<other>.)")
-_NUMBERED = re.compile(rf"({_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*)([0-5])(?![\d.,%])")
+_NUMBERED = re.compile(rf"({_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*)([0-5])(?!\d|[.,]\d|%)")
+_REPEATED = re.compile(f"([{_HAN}])々")
 _U_DIAERESIS = re.compile(r"(?<=[lnLN])[uU]:")
 # 儿 in front of these begins a word of its own: 这儿子 is 这 + 儿子.
 _OWN_WORD = "子女童孙媳歌科"
@@ -56,6 +58,13 @@ class Foreign(NamedTuple):
 Token = Syllable | Pause | Foreign
 
 
+class Reading(NamedTuple):
+    """The tokens of a text, and the signs in it that nobody reads."""
+
+    tokens: list[Token]
+    unread: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class PinyinReader:
     """Reads Chinese by a language's tables: legal *syllables*, known *phones* and *readings* of words."""
@@ -64,17 +73,17 @@ class PinyinReader:
     phones: Container[str]
     readings: Mapping[str, str]
 
-    def read(self, text: str) -> list[Token]:
-        """The tokens of *text*, with at least one syllable or foreign word among them.
+    def read(self, text: str) -> Reading:
+        """The tokens of *text*.
 
         Raises `InputError` for text without any Chinese, and for characters and syllables that nobody knows.
         """
         chinese = has_characters(text)
         # Tone digits go out of the way of numbers: ni3 keeps its 3, iPhone 3 does not.
         raised = _NUMBERED.sub(lambda m: self._raise_tone(m, chinese=chinese), _U_DIAERESIS.sub("ü", text))
-        spelled = spell_numbers(raised)
-        chinese = has_characters(spelled)
+        spelled = _REPEATED.sub(r"\1\1", spell_numbers(raised))
         tokens: list[Token] = []
+        unread: list[str] = []
         for match in _TOKEN.finditer(spelled):
             if match["han"]:
                 tokens += self._read_characters(match["han"])
@@ -82,7 +91,9 @@ class PinyinReader:
                 tokens += self._read_latin(match["latin"], chinese=chinese)
             elif (mark := PUNCTUATION.get(match["other"], match["other"])) in PAUSES:
                 tokens.append(Pause(mark))
-        return tokens
+            elif unicodedata.category(mark)[0] in "NSL" or mark in "%&@#":
+                unread.append(mark)
+        return Reading(tokens, tuple(dict.fromkeys(unread)))
 
     @cached_property
     def _words(self) -> re.Pattern[str]:
@@ -129,7 +140,7 @@ class PinyinReader:
         found: list[Syllable] = []
         for part in re.split("['’-]", letters):
             pieces = self._cut(_with_tones(part))
-            if not pieces:
+            if not pieces or (len(pieces) > 1 and any(_VOWELLESS.fullmatch(piece.plain) for piece in pieces)):
                 return []
             found += pieces
         if tone:
@@ -143,7 +154,7 @@ class PinyinReader:
         if not letters:
             return []
         for length in range(min(7, len(letters)), 0, -1):
-            plain = "".join(letter for letter, _ in letters[:length]).lower().replace("v", "ü")
+            plain = spelling("".join(letter for letter, _ in letters[:length]))
             tones = [tone for _, tone in letters[:length] if tone]
             phones = self.syllables.split(plain, self.phones)
             if not phones or len(tones) > 1:
@@ -154,12 +165,21 @@ class PinyinReader:
         return []
 
     def _known(self, written: str, plain: str, tone: int) -> Syllable:
+        plain = spelling(plain)
         phones = self.syllables.split(plain, self.phones)
         if not phones:
             raise InputError(
                 f"text: {written!r} is read {plain!r}, which is no syllable in syllables.tsv; add it there, or write another word"
             )
-        return Syllable(written, plain.lower().replace("v", "ü"), tone, phones)
+        return Syllable(written, plain, tone, phones)
+
+
+def spelling(plain: str) -> str:
+    """A syllable as the table spells it: v is ü, ü after j q x y is u, and lue, nue are lüe, nüe."""
+    plain = plain.lower().replace("v", "ü")
+    if plain[:1] in ("j", "q", "x", "y"):
+        return plain.replace("ü", "u")
+    return {"lue": "lüe", "nue": "nüe"}.get(plain, plain)
 
 
 def has_characters(text: str) -> bool:

@@ -28,7 +28,8 @@ SCRIPTS: dict[str, tuple[str, ...]] = {
     "Thai": ("THAI",),
 }
 # Letters that belong to no script or that every voice reads by their name.
-NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "DEGREE", "SUPERSCRIPT", "IDEOGRAPHIC")
+NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "IDEOGRAPHIC")
+TERMINAL = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>")
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
 
@@ -45,7 +46,7 @@ def clean(text: str) -> Text:
 
     Raises `InputError` when nothing in it is a letter or a digit.
     """
-    folded = "".join(_fold(c) for c in unicodedata.normalize("NFC", text))
+    folded = "".join(_fold(c) for c in unicodedata.normalize("NFC", TERMINAL.sub("", text)))
     emoji = sum(_is_emoji(c) for c in folded)
     broken = sum(unicodedata.category(c) in ("Cc", "Cs", "Co", "Cn") and not c.isspace() for c in folded)
     kept = "".join(_spoken(c) for c in folded)
@@ -72,9 +73,10 @@ def check_script(text: str, script: str, *, language: str) -> None:
     if allowed is None:
         return
     for found in re.finditer(r"[^\W\d_]+", text):
-        kinds = [unicodedata.name(c, "?").split()[0] for c in found[0]]
-        foreign = [i for i, kind in enumerate(kinds) if kind not in allowed and kind not in NEUTRAL]
-        if not foreign or (len(kinds) == 1 and kinds[0] == "GREEK"):
+        kinds = [_kind(c) for c in found[0]]
+        lone = [a != "GREEK" and c != "GREEK" for a, c in zip(["", *kinds], [*kinds[1:], ""], strict=False)]
+        foreign = [i for i, kind in enumerate(kinds) if kind not in (*allowed, *NEUTRAL, "") and not (kind == "GREEK" and lone[i])]
+        if not foreign:
             continue
         kind = kinds[foreign[0]]
         writing = WRITING.get(kind, f"{kind.title()} letters")
@@ -84,10 +86,16 @@ def check_script(text: str, script: str, *, language: str) -> None:
         )
 
 
+def _kind(character: str) -> str:
+    """The first word of a letter's Unicode name; empty for a sign that is no letter, such as ½."""
+    return unicodedata.name(character, "?").split()[0] if unicodedata.category(character)[0] == "L" else ""
+
+
 def _fold(character: str) -> str:
     kind = unicodedata.decomposition(character).split(" ")[0]
     ligature = kind == "<compat>" and unicodedata.category(character) == "Ll"
-    return unicodedata.normalize("NFKC", character) if kind in FOLDED or ligature else character
+    plain = unicodedata.normalize("NFKC", character) if kind in FOLDED or ligature else character
+    return f" {plain} " if kind == "<circle>" else plain
 
 
 def _is_named(character: str) -> bool:
