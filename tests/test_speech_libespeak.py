@@ -99,6 +99,12 @@ def test_a_library_that_cannot_be_loaded_is_a_missing_tool(tmp_path: Path, monke
         libespeak.speak(TEXT, "en-us")
 
 
+def test_without_a_place_for_its_copy_the_error_says_what_to_set(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("tempfile.tempdir", "/nowhere/at/all")
+    with pytest.raises(MissingToolError, match="set TMPDIR"):
+        libespeak.speak(TEXT, "en-us")
+
+
 def test_without_any_library_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "espeakng_loader", None)
     monkeypatch.setattr(libespeak, "find_library", lambda name: None)

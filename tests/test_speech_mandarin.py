@@ -11,9 +11,10 @@ from lipdb.speech.mandarin import PinyinVoice, pinyin_voice, split_ipa
 from lipdb.speech.pinyin import Foreign, Pause, Syllable
 
 SYLLABLES = """
-a:a an:an ba:b+a bei:b+ei dian:d+ian er:er ge:g+e guo:g+uo hao:h+ao hua:h+ua hui:h+uei
-jing:j+ing ji:j+i ju:j+ü nüe:n+üe kai:k+ai le:l+e ling:l+ing lü:l+ü lüan:l+üan m:m ma:m+a men:m+en nian:n+ian ni:n+i nü:n+ü qi:q+i ren:r+en san:s+an shi:sh+-i(zh) shou:sh+ou si:s+-i(z) wo:uo
-xi:x+i xian:x+ian xiong:x+iong yi:i yong:iong zhong:zh+ong zi:z+-i(z) bai:b+ai fen:f+en zhi:zh+-i(zh) wu:u shu:sh+u na:n+a kan:k+an
+a:a an:an ba:b+a bei:b+ei dian:d+ian er:er ge:g+e guo:g+uo hao:h+ao hua:h+ua hui:h+uei jing:j+ing ji:j+i ju:j+ü nüe:n+üe
+kai:k+ai le:l+e ling:l+ing lü:l+ü lüan:l+üan m:m ma:m+a men:m+en nian:n+ian ni:n+i nü:n+ü qi:q+i ren:r+en san:s+an
+shi:sh+-i(zh) shou:sh+ou si:s+-i(z) wo:uo xi:x+i xian:x+ian xiong:x+iong yi:i yong:iong zhong:zh+ong zi:z+-i(z) bai:b+ai
+fen:f+en zhi:zh+-i(zh) wu:u shu:sh+u na:n+a kan:k+an
 """
 ERHUA = ("ua+r", "ian+r", "uei+r", "a+r")
 READINGS = {"花儿": "huar1", "一点儿": "yi4 dianr3", "哪儿": "nar3", "wechat": "wo3 ge4"}

@@ -37,7 +37,7 @@ def test_invisible_joiners_vanish():
 
 
 def test_full_width_styled_and_ligature_letters_become_plain():
-    assert clean("ｈｅｌｌｏ 𝐛𝐨𝐥𝐝 ﬁne").text == "hello bold fine"
+    assert clean("ｈｅｌｌｏ 𝐛𝐨𝐥𝐝 ﬁne Ⅷ").text == "hello bold fine VIII"
 
 
 def test_powers_and_fractions_keep_their_meaning():

@@ -18,7 +18,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from ctypes.util import find_library
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -213,14 +213,17 @@ def _tracing(library: ctypes.CDLL) -> Iterator[list[str]]:
 def _private_library() -> Iterator[tuple[ctypes.CDLL, bytes | None]]:
     """A copy of the library that nobody else uses, and the path of its data; both are gone after the block."""
     path, data = find_espeak()
-    with tempfile.TemporaryDirectory(prefix="lipdb-") as folder:
+    with ExitStack() as stack:
         try:
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="lipdb-"))
             copy = Path(shutil.copy(path, folder))
             near = Path(folder, "espeak-ng-data")
             if data:
                 near.symlink_to(data)  # espeak cuts paths at 160 characters
         except OSError as error:
-            raise MissingToolError(f"espeak-ng: {path} can't be copied to {folder} ({error.strerror}); mend TMPDIR") from error
+            raise MissingToolError(
+                f"espeak-ng: no private copy of {path} can be made ({error}); set TMPDIR to a folder with space"
+            ) from error
         library = _load(str(copy))
         try:
             yield library, str(near).encode() if data else None
@@ -232,7 +235,10 @@ def _load(path: str) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(path)
     except OSError as error:
-        raise MissingToolError(f"espeak-ng: can't be loaded ({error}); run `pip install --force-reinstall espeakng-loader`") from error
+        raise MissingToolError(
+            f"espeak-ng: can't be loaded ({error}); run `pip install --force-reinstall espeakng-loader`, "
+            "or set TMPDIR to a folder from which programs may run"
+        ) from error
 
 
 def _unload(library: ctypes.CDLL) -> None:

@@ -93,7 +93,7 @@ def _kind(character: str) -> str:
 
 def _fold(character: str) -> str:
     kind = unicodedata.decomposition(character).split(" ")[0]
-    ligature = kind == "<compat>" and unicodedata.category(character) == "Ll"
+    ligature = kind == "<compat>" and unicodedata.category(character) in ("Ll", "Nl")
     plain = unicodedata.normalize("NFKC", character) if kind in FOLDED or ligature else character
     return f" {plain} " if kind == "<circle>" else plain
 
