@@ -1,9 +1,10 @@
-"""Constrain, limit the speed and spline, pose by pose in descending priority (design: all of them true at once).
+"""Constrain and limit the speed of control points, by priority, and enforce both again at the frames.
 
-Why it holds. After constraining and limiting, the control points of a pose are, for neighbouring frames s and t, at most
-the bound at t; so their average at t is. Lowering never breaks an upper bound. Averages of values in 0..1 that obey a
-speed limit obey both. Must-reach poses are never lowered, and three equal control points pass the filter unchanged, so a
-closure keeps its peak.
+Why it holds. Control points w of a pose obey its speed limit, and so do averages of them: so does the spline S. Where
+w_k + w_j <= C at every control point, S_k + S_j <= C at every time, because a spline is linear in its control points.
+Only where a bound is cut off at 0 may the spline pass it, by a little; there frames are lowered to the bound. The
+smaller of two curves that obey a speed limit obeys it. Must-reach poses are never lowered, and three equal control
+points pass the spline unchanged, so a closure keeps its peak.
 """
 
 from __future__ import annotations
@@ -11,35 +12,34 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
-from lipdb.engine.limits import erode, hold, limit_above, limit_below, spline
+from lipdb.engine.limits import hold_peaks, limit_above, limit_below
 from lipdb.engine.table import Floats, Ints
 from lipdb.poses import PoseSet
 
 Watch = Callable[[str, slice, Floats], None]
-"""Called after each stage with its name, the rows and their weights."""
+"""Called after each stage with its name, the rows that it worked on, and all weights."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Order:
     """A pose set's rows in the order in which they are worked out.
 
-    *pose* ``(P,)`` is the pose of each row and *row* the other way round; *levels* are the rows of each level, the first
-    of must-reach poses; *bounds* of each row are (higher row, threshold); *speed* ``(P, 1)`` by row.
+    *pose* ``(P,)`` is the pose of each row and *row* the other way round; *held* rows, the first, are must-reach poses;
+    *levels* are the rows of the other levels; *bounds* of each row are (higher row, threshold); *speed* ``(P, 1)`` by row;
+    *outrun* tells for each level whether a pose in it can be bounded by a faster one.
     """
 
     pose: Ints
     row: Ints
+    held: int
     levels: tuple[slice, ...]
     bounds: tuple[tuple[tuple[int, float], ...], ...]
     speed: Floats
-
-    @property
-    def held(self) -> int:
-        """How many rows, from the first, are must-reach poses."""
-        return int(self.levels[0].stop)
+    outrun: tuple[bool, ...]
 
 
 @lru_cache(maxsize=64)
@@ -49,47 +49,50 @@ def order_of(pose_set: PoseSet) -> Order:
     row = np.empty_like(pose)
     row[pose] = np.arange(len(pose))
     stops = np.cumsum([len(level) for level in pose_set.levels]).tolist()
-    levels = tuple(slice(stop - len(level), stop) for stop, level in zip(stops, pose_set.levels, strict=True))
+    levels = tuple(slice(a, b) for a, b in pairwise(stops))
     bounds = tuple(tuple((int(row[j]), c) for j, c in pose_set.bounds(int(i))) for i in pose)
-    return Order(pose, row, levels, bounds, pose_set.speed[pose][:, None])
+    speed = pose_set.speed[pose][:, None]
+    outrun = tuple(any(speed[j] > speed[k] for k in range(rows.start, rows.stop) for j, _ in bounds[k]) for rows in levels)
+    return Order(pose, row, stops[0], levels, bounds, speed, outrun)
 
 
-def constrain(weights: Floats, done: Floats, order: Order, rows: slice, *, eroded: bool) -> None:
-    """Lower *rows* of *weights* in place under what the finished rows *done* leave them."""
+def constrain(weights: Floats, order: Order, rows: slice) -> None:
+    """Lower *rows* of *weights* in place to what the poses above leave them."""
     for row in range(rows.start, rows.stop):
-        if order.bounds[row]:
-            bound = np.minimum.reduce([c - done[higher] for higher, c in order.bounds[row]])
+        for higher, threshold in order.bounds[row]:
+            bound = threshold - weights[higher]
             np.maximum(bound, 0, out=bound)
-            np.minimum(weights[row], erode(bound) if eroded else bound, out=weights[row])
+            np.minimum(weights[row], bound, out=weights[row])
 
 
-def finish(weights: Floats, order: Order, *, rate: float, watch: Watch | None = None) -> tuple[Floats, Floats]:
-    """Control points and spline of smoothed *weights* ``(P, T)``, *rate* points a second. Changes *weights*."""
-    most, done = order.speed / rate, np.empty_like(weights)
+def control(weights: Floats, order: Order, *, rate: float, watch: Watch | None = None) -> None:
+    """Turn smoothed *weights* ``(P, T)``, *rate* points a second, into the spline's control points, in place."""
+    most, held = order.speed / rate, slice(0, order.held)
+    if order.held:
+        hold_peaks(weights[held])
+        if watch:
+            watch("constrained", held, weights)
+        limit_above(weights[held], most[held])
+        if watch:
+            watch("limited", held, weights)
     for rows in order.levels:
-        if rows.start == rows.stop:
-            continue
-        if rows.start == 0 and order.held:
-            weights[rows] = hold(weights[rows])
-        else:
-            constrain(weights, done, order, rows, eroded=True)
+        constrain(weights, order, rows)
         if watch:
             watch("constrained", rows, weights)
-        (limit_above if rows.stop <= order.held else limit_below)(weights[rows], most[rows])
+        limit_below(weights[rows], most[rows])
         if watch:
             watch("limited", rows, weights)
-        done[rows] = spline(weights[rows])
-    return weights, done
 
 
-def enforce(frames: Floats, order: Order, *, fps: float) -> None:
-    """Keep speed limits and constraints true at frames that are not control points, in place; closures are raised already."""
+def enforce(frames: Floats, order: Order, *, fps: float, raised: bool) -> None:
+    """Keep constraints and speed limits true at the frames themselves, in place.
+
+    *raised* says that must-reach poses were raised at single frames and have to be limited again.
+    """
     most = order.speed / fps
-    for rows in order.levels:
-        if rows.start == rows.stop:
-            continue
-        if rows.stop <= order.held:
-            limit_above(frames[rows], most[rows])
-        else:
-            constrain(frames, frames, order, rows, eroded=False)
+    if raised:
+        limit_above(frames[: order.held], most[: order.held])
+    for rows, outrun in zip(order.levels, order.outrun, strict=True):
+        constrain(frames, order, rows)
+        if outrun:
             limit_below(frames[rows], most[rows])

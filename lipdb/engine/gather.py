@@ -6,76 +6,93 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lipdb.engine.table import Bools, CurveTable, Floats, Ints
+from lipdb.engine.table import GRAIN, Bools, CurveTable, Floats, Ints
+
+TINY = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Keys:
-    """The keys of a stretch of pairs on a grid, curve by curve, by time.
+    """The keys of a stretch of pairs on a grid, curve by curve, by time; each array ``(keys,)``.
 
-    Key ``k`` stands *place* ``k`` steps after grid point *base* ``k``; *index* is its number in the table.
+    A key stands *place* steps after grid point *base*; *index* is its number in the table.
     """
 
     base: Ints
     place: Floats
     index: Ints
-    owner: Ints
 
 
-def gather(table: CurveTable, pair: Ints, start: Ints, first: Ints, second: Ints, *, step: int, base: Ints) -> Keys:
-    """Lay the keys of every pair on a grid of *step* units; *base* is the grid point at which each pair's time 0 lies.
+def gather(table: CurveTable, pair: Ints, base: Ints, rest: Ints, first: Ints, second: Ints, step: int) -> Keys:
+    """Lay the keys of every pair on a grid of *step* units.
 
-    *start*, *first* and *second* are where the pairs start and how long their phones last, in units, shape ``(n,)``.
+    Time 0 of a pair lies *rest* units after grid point *base*; its phones last *first* and *second* units; all ``(n,)``.
     Keys are mapped one by one, and joined by straight lines only then (design: warp in two pieces).
     """
-    count = table.first[pair + 1] - table.first[pair]
+    begin = table.first[pair]
+    count = table.first[pair + 1] - begin
     shift = np.cumsum(count)
-    total = int(shift[-1]) if len(shift) else 0
-    index = np.arange(total) + np.repeat(table.first[pair] - shift + count, count)
-    whole, rest = np.divmod(start, step)
-    place = np.repeat(rest, count) + table.left[index] * np.repeat(first, count) + table.right[index] * np.repeat(second, count)
+    index = np.repeat(begin - shift + count, count)
+    index += np.arange(len(index))
+    place = table.left.take(index)
+    place *= np.repeat(first.astype(np.float64), count)
+    place += np.repeat(rest.astype(np.float64), count)
+    right = table.right.take(index)
+    right *= np.repeat(second.astype(np.float64), count)
+    place += right
     place /= step
-    return Keys(np.repeat(base + whole, count), place, index, np.repeat(np.arange(len(pair)), count))
+    return Keys(np.repeat(base, count), place, index)
 
 
-def stitch(table: CurveTable, keys: Keys, row: Ints, held: Ints, *, begin: int, width: int) -> Floats:
+def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, width: int) -> Floats:
     """The largest of all curves at grid points *begin* to *begin* + *width*, shape ``(P, width)``.
 
-    *row* says which row of the result each pose takes; rows in *held* (must-reach poses) take at every grid point the
-    largest weight within half a step, so that no peak falls between two frames.
+    *row* is the row of the result that each pose takes. In the first *held* rows (must-reach poses) each grid point
+    also takes the keys within half a step of it, so that no peak falls between two.
     """
-    out = np.zeros((len(row), width + 1))
-    of_key = row[table.pose[keys.index]]
-    weight = table.weight[keys.index]
-    half = np.zeros(len(row))
-    half[held] = 0.5
-    place = keys.place + half[of_key]
-    _draw(out, of_key, keys.base - begin, place, weight, ~table.last[keys.index])
-    if len(held):
-        out[held, :-1] = np.maximum(out[held, :-1], out[held, 1:])
-        sharp = half[of_key] > 0
-        raise_at(out, of_key[sharp], (keys.base[sharp] - begin) + np.floor(place[sharp]).astype(np.int64), weight[sharp])
-    return out[:, :-1]
+    out = np.zeros((len(row), width))
+    start = (row * width - begin).take(table.pose).take(keys.index)
+    start += keys.base
+    weight = table.weight.take(keys.index)
+    _draw(out.reshape(-1), start, keys.place, weight, table.joined.take(keys.index))
+    if held:
+        sharp = np.flatnonzero((row < held).take(table.pose).take(keys.index))
+        np.maximum.at(out.reshape(-1), start[sharp] + np.floor(keys.place[sharp] + 0.5).astype(np.int64), weight[sharp])
+    return out
 
 
-def _draw(out: Floats, row: Ints, base: Ints, place: Floats, weight: Floats, joined: Bools) -> None:
-    """Draw straight lines from each key to the next, where *joined*, into *out* by maximum."""
+def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Bools) -> None:
+    """Draw straight lines from each key to the next, where *joined*, into flat *out* by maximum.
+
+    A line takes every grid point from one key to the other, both included. Lines that meet at most one grid point may
+    be as steep as they like; the others change by at most 1 a step, so counting steps through them loses no digits.
+    """
     if len(place) < 2:
         return
-    here, there = place[:-1], place[1:]
-    first = np.ceil(here)
-    count = np.where(joined[:-1], np.maximum(np.floor(there) - first + 1, 0), 0).astype(np.int64)
-    slope = (weight[1:] - weight[:-1]) / np.maximum(there - here, 1e-12)
-    value = weight[:-1] + slope * (first - here)
-    slope[count < 2] = 0  # so that steep lines, which meet one grid point at most, can't lose digits below
-    offset = np.cumsum(count) - count
-    steps = np.arange(int(count.sum()))
-    values = np.repeat(value - slope * offset, count) + np.repeat(slope, count) * steps
-    start = row[:-1] * out.shape[1] + base[:-1] + first.astype(np.int64) - offset
-    np.maximum.at(out.reshape(-1), np.repeat(start, count) + steps, values)
-
-
-def raise_at(out: Floats, row: Ints, column: Ints, weight: Floats) -> None:
-    """Raise ``out[row, column]`` to *weight* where it is lower; columns outside are left out."""
-    inside = (column >= 0) & (column < out.shape[1])
-    np.maximum.at(out, (row[inside], column[inside]), weight[inside])
+    here, there, low = place[:-1], place[1:], weight[:-1]
+    first, width, rise = np.ceil(here), there - here, weight[1:] - low
+    count = np.floor(there)
+    count -= first
+    count += 1
+    count *= joined[:-1]
+    counts = np.maximum(count, 0, out=count).astype(np.int64)
+    value = first - here
+    value /= np.maximum(width, TINY)
+    value *= rise
+    value += low
+    rise /= np.maximum(width, 1, out=width)
+    offset = np.cumsum(counts)
+    offset -= counts
+    value -= rise * offset
+    begin = first.astype(np.int64)
+    begin += start[:-1]
+    begin -= offset
+    at = np.repeat(begin, counts)
+    steps = np.arange(len(at))
+    at += steps
+    values = np.repeat(rise, counts)
+    values *= steps
+    values += np.repeat(value, counts)
+    values += GRAIN
+    values -= GRAIN
+    np.maximum.at(out, at, values)

@@ -1,50 +1,55 @@
-"""The small filters that keep the promises: hold, erode, limit from above and from below, spline.
+"""The small filters that keep the promises: hold peaks, limit speed from above and from below, spline.
 
-All work along the last axis of arrays ``(n, T)`` and take what lies outside for rest: lay zeros around.
+All work along the last axis of arrays ``(n, T)``. They take what lies outside for rest: lay zeros around.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from lipdb.engine.table import Floats
+from lipdb.engine.smooth import moves
+from lipdb.engine.table import Floats, Ints
 
 
-def hold(weights: Floats) -> Floats:
-    """The running maximum over 3 frames."""
-    out = weights.copy()
-    np.maximum(out[:, 1:], weights[:, :-1], out=out[:, 1:])
-    np.maximum(out[:, :-1], weights[:, 1:], out=out[:, :-1])
-    return out
+def peaks(weights: Floats) -> tuple[Ints, Ints]:
+    """First and last point of every peak or plateau, as flat indices."""
+    begin, end, up = moves(weights)
+    tops = np.flatnonzero(up[:-1] & ~up[1:])
+    return end[tops], begin[tops + 1]
 
 
-def erode(bound: Floats) -> Floats:
-    """The running minimum over 3 frames."""
-    out = bound.copy()
-    np.minimum(out[..., 1:], bound[..., :-1], out=out[..., 1:])
-    np.minimum(out[..., :-1], bound[..., 1:], out=out[..., :-1])
-    return out
+def hold_peaks(weights: Floats) -> None:
+    """Widen peaks of less than three points, in place: three equal points pass the spline unchanged."""
+    first, last = peaks(weights)
+    narrow = last - first < 2
+    first, last = first[narrow], last[narrow]
+    flat = weights.reshape(-1)
+    top = flat[first]
+    np.maximum.at(flat, first - 1, top)
+    np.maximum.at(flat, last + 1, top)
 
 
 def limit_below(weights: Floats, most: Floats) -> None:
-    """Lower *weights* in place to the largest curves that are nowhere higher and change by at most *most* ``(n, 1)`` a frame.
+    """Lower *weights* in place to the largest curves that are nowhere higher and change by at most *most* ``(n, 1)`` a point.
 
     It is the smallest of the weights around plus what may be walked from there. Weights lie in 0..1, so only
-    neighbours within 1 / most matter, and reaches double: 1, 2, 4 frames.
+    neighbours within 1 / most matter, and the reach doubles: 1, 2, 4 points.
     """
     reach, slowest = 1, float(most.min(initial=1))
-    while reach * slowest < 1 and reach < weights.shape[1]:
-        np.minimum(weights[:, reach:], weights[:, :-reach] + reach * most, out=weights[:, reach:])
-        np.minimum(weights[:, :-reach], weights[:, reach:] + reach * most, out=weights[:, :-reach])
+    while reach * slowest < 1 and 2 * reach < weights.shape[1]:
+        around = np.minimum(weights[:, : -2 * reach], weights[:, 2 * reach :])
+        around += reach * most
+        np.minimum(weights[:, reach:-reach], around, out=weights[:, reach:-reach])
         reach *= 2
 
 
 def limit_above(weights: Floats, most: Floats) -> None:
-    """Raise *weights* in place to the smallest curves that are nowhere lower and change by at most *most* ``(n, 1)`` a frame."""
+    """Raise *weights* in place to the smallest curves that are nowhere lower and change by at most *most* ``(n, 1)`` a point."""
     reach, slowest = 1, float(most.min(initial=1))
-    while reach * slowest < 1 and reach < weights.shape[1]:
-        np.maximum(weights[:, reach:], weights[:, :-reach] - reach * most, out=weights[:, reach:])
-        np.maximum(weights[:, :-reach], weights[:, reach:] - reach * most, out=weights[:, :-reach])
+    while reach * slowest < 1 and 2 * reach < weights.shape[1]:
+        around = np.maximum(weights[:, : -2 * reach], weights[:, 2 * reach :])
+        around -= reach * most
+        np.maximum(weights[:, reach:-reach], around, out=weights[:, reach:-reach])
         reach *= 2
 
 
@@ -53,5 +58,5 @@ def spline(control: Floats) -> Floats:
     out = 4 * control
     out[:, 1:] += control[:, :-1]
     out[:, :-1] += control[:, 1:]
-    out /= 6
+    out *= 1 / 6
     return out

@@ -9,8 +9,9 @@ from typing import overload
 
 import numpy as np
 
-from lipdb.engine.finish import Order, Watch, enforce, finish, order_of
-from lipdb.engine.gather import gather, raise_at, stitch
+from lipdb.engine.finish import Order, Watch, control, enforce, order_of
+from lipdb.engine.gather import gather, stitch
+from lipdb.engine.limits import peaks, spline
 from lipdb.engine.smooth import smooth
 from lipdb.engine.table import Bools, CurveTable, Floats, Ints
 from lipdb.engine.timeline import CONTROL_RATE, Line, Timeline, lay
@@ -50,91 +51,66 @@ class Player:
     """One pose set's curves over one timeline; plays any stretch of its axis."""
 
     def __init__(self, table: CurveTable, pose_set: PoseSet, timeline: Timeline) -> None:
-        self.table, self.pose_set, self.line = table, pose_set, timeline
+        self.table, self.line = table, timeline
         self.order: Order = order_of(pose_set)
-        line, step = timeline, timeline.rate.control
-        self.base = line.cell[line.run]
-        self.begins = self.base + line.start // step
-        self.ends = self.base + -(-(line.start + line.first_length + line.second_length) // step)
         self.shuts: Bools = np.any(table.closing[pose_set.must_reach], axis=0)
         self.window = pose_set.window * CONTROL_RATE
+        self.pairs = timeline.pairs()
 
-    def margin(self) -> int:
-        """Control points on each side of a stretch that what happens in it can depend on."""
-        reach = sum(4 + math.ceil(CONTROL_RATE / float(self.order.speed[rows].min(initial=CONTROL_RATE))) for rows in self.order.levels)
-        return reach + 2 * math.ceil(self.window) + 4
+    def margin(self, rate: float) -> int:
+        """Points, *rate* a second, that constraints and speed limits can reach across."""
+        groups = (slice(0, self.order.held), *self.order.levels)
+        return sum(4 + math.ceil(rate / float(self.order.speed[rows].min(initial=rate))) for rows in groups)
 
-    def stretch(self, begin: int, end: int, watch: Watch | None = None) -> tuple[Floats, Floats, int]:
-        """Control points and spline ``(P, T)`` around control points *begin* to *end*, and where the first column lies."""
-        low, high = begin - self.margin(), end + self.margin()
-        pairs = slice(int(np.searchsorted(self.ends, low)), int(np.searchsorted(self.begins, high, side="right")))
-        line, step = self.line, self.line.rate.control
-        if pairs.start < pairs.stop:
-            low, high = min(low, int(self.begins[pairs.start])), max(high, int(self.ends[pairs.stop - 1]) + 2)
-        first, second, start = line.first_length[pairs], line.second_length[pairs], line.start[pairs]
-        keys = gather(self.table, line.pair[pairs], start, first, second, step=step, base=self.base[pairs])
-        held = np.arange(self.order.held)
-        weights = np.ascontiguousarray(stitch(self.table, keys, self.order.row, held, begin=low, width=high - low))
+    def control(self, begin: int, end: int, watch: Watch | None = None) -> tuple[Floats, int]:
+        """Control points ``(P, T)``, true from cell *begin* to *end* and more on both sides; the cell of the first."""
+        margin = self.margin(CONTROL_RATE) + 2 * math.ceil(self.window) + 4
+        low, high = begin - margin, end + margin
+        pairs = self.pairs.between(low, high)
+        if len(pairs.base):
+            low, high = min(low, int(pairs.base[0])), max(high, int(pairs.stop[-1]) + 2)
+        keys = gather(self.table, pairs.pair, pairs.base, pairs.rest, pairs.first, pairs.second, pairs.step)
+        weights = stitch(self.table, keys, self.order.row, self.order.held, begin=low, width=high - low)
         if watch:
             watch("stitched", slice(0, len(weights)), weights)
-        borders = (start + first) / step + (self.base[pairs] - low)
-        smooth(weights, self.window, self.order.held, borders, self.shuts[line.pair[pairs] % len(self.table.phones)])
+        borders = (pairs.rest + pairs.first) / pairs.step + (pairs.base - low)
+        smooth(weights, self.window, self.order.held, borders, self.shuts[pairs.pair % len(self.table.phones)])
         if watch:
             watch("smoothed", slice(0, len(weights)), weights)
-        return *finish(weights, self.order, rate=CONTROL_RATE, watch=watch), low
+        control(weights, self.order, rate=CONTROL_RATE, watch=watch)
+        return weights, low
 
-    def frames(self, begin: int, end: int) -> Floats:
+    def frames(self, begin: int, end: int, watch: Watch | None = None) -> Floats:
         """Weights by row ``(P, end - begin)`` at frames *begin* to *end* of the axis."""
-        if self.line.rate.on_grid:
-            _, done, low = self.stretch(begin, end)
-            return done[:, begin - low : end - low]
-        fps = self.line.rate.fps
-        margin = sum(1 + math.ceil(fps / float(self.order.speed[rows].min(initial=fps))) for rows in self.order.levels)
+        rate = self.line.rate
+        margin = self.margin(rate.fps) if any(self.order.outrun) or not rate.on_grid else 0
         low, high = max(begin - margin, 0), min(end + margin, self.line.axis)
-        frames = self._sampled(low, high)
-        enforce(frames, self.order, fps=fps)
+        if rate.on_grid:
+            points, zero = self.control(low, high, watch)
+            frames = spline(points[:, low - zero - 1 : high - zero + 1])[:, 1:-1]
+        else:
+            frames = self.sampled(low, high, watch)
+        if watch:
+            watch("splined", slice(0, len(frames)), frames)
+        enforce(frames, self.order, fps=rate.fps, raised=not rate.on_grid)
         return frames[:, begin - low : end - low]
 
-    def _sampled(self, begin: int, end: int) -> Floats:
-        """The spline at frames *begin* to *end*, must-reach poses raised to every key nearest to a frame."""
-        line, rate = self.line, self.line.rate
-        if not len(line.cell):
-            return np.zeros((len(self.order.row), end - begin))
-        at = np.arange(begin, end)
-        run = np.maximum(np.searchsorted(line.first_frame, at, side="right") - 1, 0)
-        cell, rest = np.divmod((at - line.frame[run]) * rate.frame, rate.control)
-        cell += line.cell[run]
-        cell = np.clip(cell, line.low[run] + 1, line.high[run] - 3)
-        control, _, zero = self.stretch(int(cell[0]), int(cell[-1]) + 1)
-        t = rest / rate.control
-        parts = ((1 - t) ** 3, 3 * t**3 - 6 * t**2 + 4, -3 * t**3 + 3 * t**2 + 3 * t + 1, t**3)
-        frames = np.zeros((len(control), len(at)))
-        for k, part in enumerate(parts):
-            frames += (part / 6) * control[:, cell - zero + k - 1]
+    def sampled(self, begin: int, end: int, watch: Watch | None = None) -> Floats:
+        """The spline at frames *begin* to *end*; the frames nearest to the peaks of must-reach poses reach them."""
+        cell, part = self.line.cells(np.arange(begin, end))
+        points, zero = self.control(int(cell[0]), int(cell[-1]) + 1, watch)
+        basis = ((1 - part) ** 3, 3 * part**3 - 6 * part**2 + 4, -3 * part**3 + 3 * part**2 + 3 * part + 1, part**3)
+        frames = np.zeros((len(points), end - begin))
+        for k, weight in enumerate(basis, -1):
+            frames += weight / 6 * points[:, cell - zero + k]
         np.minimum(frames, 1, out=frames)
-        self._reach(frames, begin)
+        first, last = peaks(points[: self.order.held])
+        for at in (np.minimum(first + 1, last), np.maximum(last - 1, first)):
+            row, column = np.divmod(at, points.shape[1])
+            frame = self.line.nearest_frames(column + zero) - begin
+            inside = (frame >= 0) & (frame < end - begin)
+            np.maximum.at(frames, (row[inside], frame[inside]), points.reshape(-1)[at[inside]])
         return frames
-
-    def _reach(self, frames: Floats, begin: int) -> None:
-        """Raise must-reach poses at the frame nearest to each of their keys to that key's weight."""
-        line, step = self.line, self.line.rate.frame
-        base = line.frame[line.run]
-        low, high = begin - 2, begin + frames.shape[1] + 2
-        first_frame, last_frame = base + line.start // step, base + (line.start + line.first_length + line.second_length) // step
-        pairs = slice(int(np.searchsorted(last_frame, low)), int(np.searchsorted(first_frame, high, side="right")))
-        keys = gather(
-            self.table,
-            line.pair[pairs],
-            line.start[pairs],
-            line.first_length[pairs],
-            line.second_length[pairs],
-            step=step,
-            base=base[pairs],
-        )
-        row = self.order.row[self.table.pose[keys.index]]
-        held = row < self.order.held
-        column = keys.base[held] - begin + np.floor(keys.place[held] + 0.5).astype(np.int64)
-        raise_at(frames, row[held], column, self.table.weight[keys.index[held]])
 
 
 def animate_lines(
@@ -154,7 +130,8 @@ def animate_lines(
     axis = np.empty((len(pose_set.poses), timeline.axis))
     for begin in range(0, timeline.axis, CHUNK):
         end = min(begin + CHUNK, timeline.axis)
-        axis[player.order.pose, begin:end] = player.frames(begin, end)
+        for pose, weights in zip(player.order.pose, player.frames(begin, end), strict=True):
+            axis[pose, begin:end] = weights
     return Tracks(axis, timeline.origin, timeline.frames, pose_set.poses, fps)
 
 

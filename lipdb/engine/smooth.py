@@ -7,6 +7,17 @@ import numpy as np
 from lipdb.engine.table import Bools, Floats, Ints
 
 
+def moves(weights: Floats) -> tuple[Ints, Ints, Bools]:
+    """The stretches over which *weights* ``(P, T)`` rise or fall: first and last point (flat indices), and whether up."""
+    flat = weights.reshape(-1)
+    way = (flat[1:] > flat[:-1]).view(np.int8) - (flat[1:] < flat[:-1]).view(np.int8)
+    turns = np.flatnonzero(way[1:] != way[:-1]) + 1
+    edges = np.concatenate(([0], turns, [len(way)]))
+    sign = way[edges[:-1]]
+    moving = np.flatnonzero(sign)
+    return edges[moving], edges[moving + 1], sign[moving] > 0
+
+
 def valleys(weights: Floats, window: float) -> tuple[Ints, Ints]:
     """Where the valleys narrower than *window* steps begin and end, as flat indices into *weights* ``(P, T)``.
 
@@ -14,15 +25,14 @@ def valleys(weights: Floats, window: float) -> tuple[Ints, Ints]:
     point of the second. A level stretch as long as the window ends a valley beside it like a peak does, so that what
     happens here depends on nothing further away than the window.
     """
-    step = np.diff(weights.ravel())
-    moves = np.flatnonzero(step)
-    if len(moves) < 2:
-        return moves[:0], moves[:0]
-    up = step[moves] > 0
-    parts = np.flatnonzero((up[:-1] & ~up[1:]) | (np.diff(moves) > window)) + 1
-    parts = np.concatenate(([0], parts, [len(moves)]))
-    begin, end = moves[parts[:-1]], moves[parts[1:] - 1] + 1
-    found = ~up[parts[:-1]] & up[parts[1:] - 1] & (end - begin < window)
+    begin, end, up = moves(weights)
+    if len(begin) < 2:
+        return begin[:0], end[:0]
+    parts = np.flatnonzero((up[:-1] & ~up[1:]) | (begin[1:] - end[:-1] >= window)) + 1
+    parts = np.concatenate(([0], parts, [len(begin)]))
+    first, last = parts[:-1], parts[1:] - 1
+    begin, end = begin[first], end[last]
+    found = ~up[first] & up[last] & (end - begin < window)
     return begin[found], end[found]
 
 
@@ -30,12 +40,12 @@ def fill(weights: Floats, begin: Ints, end: Ints) -> None:
     """Raise *weights* to the straight line from each *begin* to its *end* (flat indices), in place."""
     flat = weights.reshape(-1)
     inner = end - begin - 1
-    total = int(inner.sum())
-    if not total:
+    if not inner.any():
         return
-    low, high = flat[begin], flat[end]
-    step = np.arange(total) - np.repeat(np.cumsum(inner) - inner, inner) + 1
-    line = np.repeat(low, inner) + np.repeat((high - low) / (end - begin), inner) * step
+    step = np.arange(1, int(inner.sum()) + 1) - np.repeat(np.cumsum(inner) - inner, inner)
+    line = np.repeat((flat[end] - flat[begin]) / (end - begin), inner)
+    line *= step
+    line += np.repeat(flat[begin], inner)
     at = np.repeat(begin, inner) + step
     flat[at] = np.maximum(flat[at], line)
 
@@ -51,11 +61,16 @@ def smooth(weights: Floats, window: float, held: int, borders: Floats, closing: 
     width = weights.shape[1]
     count = int(np.searchsorted(begin, held * width))
     if count:
-        row = begin[:count] // width
-        opened = np.concatenate(([0], np.cumsum(~closing)))
-        low = np.searchsorted(borders, begin[:count] - row * width, side="right") - 1
-        high = np.searchsorted(borders, end[:count] - row * width, side="left") - 1
-        shut = (low >= 0) & (opened[high + 1] == opened[np.maximum(low, 0)])
-        keep = np.concatenate((np.flatnonzero(shut), np.arange(count, len(begin))))
-        begin, end = begin[keep], end[keep]
+        shut = _shut(begin[:count] % width, end[:count] % width, borders, closing)
+        kept = np.concatenate((np.flatnonzero(shut), np.arange(count, len(begin))))
+        begin, end = begin[kept], end[kept]
     fill(weights, begin, end)
+
+
+def _shut(begin: Ints, end: Ints, borders: Floats, closing: Bools) -> Bools:
+    """Which valleys have nothing but closing phones in them."""
+    opened = np.concatenate(([0], np.cumsum(~closing)))
+    first = np.searchsorted(borders, begin, side="right") - 1
+    last = np.searchsorted(borders, end, side="left") - 1
+    shut: Bools = (first >= 0) & (opened[last + 1] == opened[np.maximum(first, 0)])
+    return shut

@@ -18,6 +18,11 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
+GRAIN = 2.0**19
+"""Adding and taking away this rounds a weight to a multiple of 2 ** -33, about 1e-10.
+
+Weights on that grain are equal when they are equal by definition, however they were worked out: plateaus stay plateaus.
+"""
 REACH = 0.5
 """A phone closes a pose when its pairs bring it, on average, to this part of the pose's largest weight in the table."""
 
@@ -40,7 +45,7 @@ class CurveTable:
 
     Pair ``(a, b)`` has the number ``a * N + b``; its keys are ``first[pair] : first[pair + 1]`` of the key arrays, by
     pose and then by time. A key stands at ``left`` times the length of the first phone plus ``right`` times that of
-    the second after the pair's start. *last* marks the last key of each curve. Outside its keys a curve is 0.
+    the second after the pair's start; *joined* marks all but the last key of each curve. Outside its keys a curve is 0.
     """
 
     phones: tuple[str, ...]
@@ -50,7 +55,7 @@ class CurveTable:
     right: Floats
     weight: Floats
     pose: Ints
-    last: Bools
+    joined: Bools
     mean_reach: Floats
 
     @classmethod
@@ -72,9 +77,10 @@ class CurveTable:
                 reach[p, [a, b]] += _own_parts(curve) if a != b else max(_own_parts(curve))
         lengths = np.array([len(part[0]) for part in parts], dtype=np.int64)
         owner = np.repeat(np.array([part[3] for part in parts], dtype=np.int64), lengths)
-        last = np.zeros(int(lengths.sum()), dtype=bool)
-        last[np.cumsum(lengths) - 1] = True
+        joined = np.ones(int(lengths.sum()), dtype=bool)
+        joined[np.cumsum(lengths) - 1] = False
         left, right, weight = (np.concatenate([part[i] for part in parts] or [np.zeros(0)]) for i in range(3))
+        weight = weight + GRAIN - GRAIN
         pose_of = np.repeat(np.array([part[4] for part in parts], dtype=np.int64), lengths)
         return cls(
             names,
@@ -84,7 +90,7 @@ class CurveTable:
             right,
             weight,
             pose_of,
-            last,
+            joined,
             reach / max(2 * count - 2, 1),
         )
 
@@ -115,8 +121,9 @@ def _placed(curve: Drawn, where: str) -> tuple[Floats, Floats, Floats]:
     bad = not (np.isfinite(time).all() and np.isfinite(weight).all()) or (np.diff(time) < 0).any()
     if bad or time[0] < 0 or time[-1] > 1 or weight.min() < 0 or weight.max() > 1:
         raise CurveError(f"{where}: keys must run forward in time and lie in 0..1, not {curve.keys}")
-    if len(time) > 1 and time[-1] == time[-2]:  # a step at the very end: the frame on it takes the larger weight
-        time, weight = time[:-1], np.append(weight[:-2], weight[-2:].max())
+    tied = int(np.searchsorted(time, time[-1]))
+    if tied < len(time) - 1:  # a step at the very end: the frame on it takes the largest weight
+        time, weight = time[: tied + 1], np.append(weight[:tied], weight[tied:].max())
     if len(time) == 1:
         time, weight = np.repeat(time, 2), np.repeat(weight, 2)
     if curve.warp == "border":

@@ -15,7 +15,7 @@ from itertools import chain
 
 import numpy as np
 
-from lipdb.engine.table import CurveTable, Ints
+from lipdb.engine.table import CurveTable, Floats, Ints
 from lipdb.errors import CurveError, InputError, ScheduleError
 
 CONTROL_RATE = 60
@@ -64,14 +64,36 @@ def rate_of(fps: float) -> Rate:
     return Rate(fps, second, second // 1_000_000, second * exact.denominator // exact.numerator, second // CONTROL_RATE)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Pairs:
+    """Pairs on a grid of *step* units, by time, each array ``(n,)``.
+
+    *pair* is the number in the table; its time 0 lies *rest* units after grid point *base*, its phones last *first* and
+    *second* units, and it ends at or before grid point *stop*.
+    """
+
+    step: int
+    pair: Ints
+    base: Ints
+    rest: Ints
+    first: Ints
+    second: Ints
+    stop: Ints
+
+    def between(self, low: int, high: int) -> Pairs:
+        """The pairs that overlap grid points *low* to *high*."""
+        part = slice(int(np.searchsorted(self.stop, low)), int(np.searchsorted(self.base, high, side="right")))
+        return Pairs(self.step, self.pair[part], self.base[part], self.rest[part], self.first[part], self.second[part], self.stop[part])
+
+
 @dataclass(frozen=True, eq=False)
 class Timeline:
-    """Lines one after another on one axis, with rest between them, so that they are played as one.
+    """Lines one after another on one axis of frames, with rest between them, so that they are played as one.
 
-    *n* pairs: number in the table, lengths of both phones (units), start (units after the run's anchor frame), run.
-    A run is a stretch of speech with control points of its own: anchored on the frame at or before its first sound,
-    which stands at control point *cell* and at frame *frame* of the axis. Lines: frame 0 of each stands at *origin* on
-    the axis, *frames* were asked for.
+    A run is a stretch of speech with control points (cells) of its own. It is anchored on the frame at or before its
+    first sound: there stand its cell *cell* and the axis' frame *frame*; its cells are *low* to *high*, its frames begin at
+    *first_frame*. Pair: number in the table, lengths of both phones and start after the anchor (units), run. Frame 0
+    of each line stands at *origin* on the axis of *axis* frames; *frames* were asked for.
     """
 
     rate: Rate
@@ -88,6 +110,30 @@ class Timeline:
     origin: Ints
     frames: Ints
     axis: int
+
+    def pairs(self) -> Pairs:
+        """The pairs on the grid of control points."""
+        step = self.rate.control
+        whole, rest = np.divmod(self.start, step)
+        base = self.cell[self.run] + whole
+        stop = base + _up(rest + self.first_length + self.second_length, step)
+        return Pairs(step, self.pair, base, rest, self.first_length, self.second_length, stop)
+
+    def cells(self, frames: Ints) -> tuple[Ints, Floats]:
+        """The cell at or before each of *frames* of the axis, and how far on (0..1) to the next one the frame is."""
+        if not len(self.cell):
+            return np.zeros_like(frames), np.zeros(len(frames))
+        run = np.maximum(np.searchsorted(self.first_frame, frames, side="right") - 1, 0)
+        whole, rest = np.divmod((frames - self.frame[run]) * self.rate.frame, self.rate.control)
+        return np.clip(whole + self.cell[run], self.low[run] + 1, self.high[run] - 3), rest / self.rate.control
+
+    def nearest_frames(self, cells: Ints) -> Ints:
+        """The frame of the axis nearest to each of *cells*."""
+        if not len(self.cell):
+            return np.zeros_like(cells)
+        run = np.maximum(np.searchsorted(self.low, cells, side="right") - 1, 0)
+        units = (cells - self.cell[run]) * self.rate.control
+        return self.frame[run] + (2 * units + self.rate.frame) // (2 * self.rate.frame)
 
 
 def _flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints, Ints]:
