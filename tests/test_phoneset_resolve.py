@@ -107,7 +107,7 @@ def test_an_alias_of_one_notation_may_be_a_pause():
     [
         ("ˈɑː", "espeak", 1, True), ("ˌɪ", "espeak", 2, False), ("ˈpː", "espeak", 1, True), ("AA1", "arpabet", 1, False),
         ("IH2", "arpabet", 2, False), ("AA0", "arpabet", 0, False), ('"i', "sppas", 1, False), ("%i", "sppas", 2, False),
-        ("i:", "sppas", 0, True), ("'I", "mine", 1, False),
+        ("aa1_B", "arpabet", 1, False), ("ay_S", "arpabet", 0, False), ("i:", "sppas", 0, True), ("'I", "mine", 1, False),
     ],
 )  # fmt: skip
 def test_stress_and_length_become_attributes(label, notation, stress, long):
@@ -216,7 +216,7 @@ def test_without_a_notation_the_one_that_knows_most_is_taken():
 
 def test_of_notations_that_know_as_much_the_own_goes_first_and_then_the_alphabet():
     assert XX.notation_of(said(["P", "R"])) == "mine"
-    assert XX.notation_of(said(["p"])) == "espeak"
+    assert XX.notation_of(said(["ʃ"])) == "espeak"
 
 
 def test_a_notation_that_the_language_does_not_read_is_refused_with_the_nearest():
@@ -253,8 +253,11 @@ def test_an_ipa_segment_that_the_language_lacks_is_known_to_the_common_layer():
     assert (phone.symbol, phone.common, phone.layer, phone.stress) == ("[ʁ]", ("kg",), "common", 1)
 
 
-def test_x_sampa_leads_to_the_same_segment():
-    assert symbols(["R"], "sppas") == ["[ʁ]"]
+@pytest.mark.parametrize(
+    ("label", "notation"), [("R", "sppas"), ("R_d", "xsampa"), ("R~", "sppas"), ("ʁ̃", "ipa"), ("ʁʷː", "mfa"), ("ˈʁ̥", "espeak")]
+)
+def test_diacritics_that_do_not_show_and_x_sampa_lead_to_the_same_segment(label, notation):
+    assert symbols([label], notation) == ["[ʁ]"]
 
 
 def test_a_segment_is_never_taken_for_a_phone_that_is_written_alike():
@@ -262,6 +265,11 @@ def test_a_segment_is_never_taken_for_a_phone_that_is_written_alike():
     (phone,) = resolved(["q"], "mine")
     assert (segment.symbol, segment.common) == ("[q]", ("kg",))
     assert (phone.symbol, phone.common) == ("q", ("sh",))
+
+
+def test_a_diacritic_that_does_not_show_does_not_make_another_phone():
+    assert symbols(["pʰ", "ɪ̃", "ˈt̪ʷ"], "espeak") == ["P", "I", "T"]
+    assert symbols(["p_h", "i~"], "sppas") == ["P", "I"]
 
 
 # Unknown symbols

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import dataclass
 from functools import cache
@@ -11,8 +12,9 @@ IPA_NOTATIONS = frozenset({"ipa", "espeak", "mfa"})
 SAMPA_NOTATIONS = frozenset({"sampa", "xsampa", "sampa_gb", "sppas"})
 """Notations whose symbols are SAMPA or X-SAMPA, which the same table knows too."""
 
-_STRESS_DIGITS = frozenset({"arpabet", "cmudict"})
+_ARPABET = frozenset({"arpabet", "cmudict"})
 _TONE_DIGITS = frozenset({"pinyin"})
+_POSITION = re.compile("_[BIES]$")
 _PRIMARY, _SECONDARY = "ˈ'\"", "ˌ,%"
 _LETTERS = str.maketrans("˥˦˧˨˩⁰¹²³⁴⁵", "54321012345")
 # Chao letters of the four tones of Standard Chinese, with common variants (half third, fourth before fourth).
@@ -45,7 +47,8 @@ class Label:
 def read_label(symbol: str, notation: str) -> Label:
     """Take *symbol* of *notation* apart.
 
-    Stress is a mark in front (``ˈ ˌ``, SAMPA ``" %``, espeak ``' ,``) or ARPAbet's digit 0 to 2; tone is pinyin's digit 1 to
+    Stress is a mark in front (``ˈ ˌ``, SAMPA ``" %``, espeak ``' ,``) or ARPAbet's digit 0 to 2, which is read in small letters
+    and with Kaldi's place in the word (``hh_B``) as well; tone is pinyin's digit 1 to
     5 (0 counts as 5) or accent, or Chao letters; length is ``ː`` or ``:``.
     """
     text = unicodedata.normalize("NFC", symbol.strip())
@@ -60,8 +63,10 @@ def _take_stress(text: str, notation: str) -> tuple[str, int]:
     bare = text.lstrip(_PRIMARY + _SECONDARY) or text
     marks = text[: len(text) - len(bare)]
     stress = 1 if set(marks) & set(_PRIMARY) else 2 if marks else 0
-    if notation in _STRESS_DIGITS and len(bare) > 1 and bare[-1] in "012":
-        return bare[:-1], int(bare[-1])
+    if notation in _ARPABET:
+        bare = _POSITION.sub("", bare.upper())
+        if len(bare) > 1 and bare[-1] in "012":
+            return bare[:-1], int(bare[-1])
     return bare, stress
 
 

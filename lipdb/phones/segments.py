@@ -46,6 +46,9 @@ _SPELLINGS = str.maketrans(
 )  # fmt: skip
 
 
+_SHOWN = "\u0361\u035c˞"
+
+
 @dataclass(frozen=True, slots=True)
 class Letter:
     """What one letter says of mouth and tongue.
@@ -119,3 +122,11 @@ def read_segment(text: str) -> tuple[tuple[Letter, ...], bool]:
             rhotic, syllabic = last.rhotic or sign == "˞", last.syllabic or sign != "˞"
             letters[-1] = Letter(last.letter, last.manner, last.place, last.height, last.back, last.rounded, rhotic, syllabic)
     return tuple(letters), bool(set(plain) & set("\u0361\u035c"))
+
+
+def without_diacritics(segment: str) -> str:
+    """*segment* with its letters, tie bar and r colour only: what is left is all that shows."""
+    plain = unicodedata.normalize("NFD", segment).replace("c\u0327", "ç")
+    return "".join(
+        sign for sign in plain if sign in _SHOWN or not (unicodedata.combining(sign) or unicodedata.category(sign) in ("Lm", "Sk"))
+    )

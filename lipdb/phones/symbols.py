@@ -9,10 +9,13 @@ from dataclasses import dataclass, field
 from lipdb.curated.tsv import Records
 from lipdb.phones.labels import IPA_NOTATIONS, SAMPA_NOTATIONS, Label, read_label
 from lipdb.phones.mapping import bracketed, unbracketed
+from lipdb.phones.segments import without_diacritics
 from lipdb.phones.syllables import Syllables
 from lipdb.schedule import SILENCE
 
 _JOINTS = re.compile(r"[-\s‿|.]+")
+# X-SAMPA: nasal, syllabic, and the two-sign diacritics such as _h and _d.
+_SAMPA_DIACRITICS = re.compile(r"(?:~|=|_.)+$")
 Parts = tuple[str, ...]
 
 
@@ -65,8 +68,8 @@ class Symbols:
         """The phones that *symbol* of *notation* stands for, ``_`` for a pause; nothing when it is unknown.
 
         In this order: a symbol or alias of the notation, as it is, without its attributes, without its length; a pause or
-        noise; a written syllable; several labels joined by ``-``, ``.``, ``|`` or a space, or several IPA symbols in a row; and
-        with *common* an IPA segment of the common table, in brackets.
+        noise; a written syllable; several labels joined by ``-``, ``.``, ``|`` or a space, or several IPA symbols in a row; a
+        symbol without its diacritics; and with *common* an IPA segment of the common table, in brackets.
         """
         key = (symbol, notation if common else notation + "!")
         if key not in self._read:
@@ -89,6 +92,7 @@ class Symbols:
             (self.syllables.split(label.bare, self.phones) if notation == self.own else ())
             or self._joined(label.bare, notation, common)
             or self._row_of(label.bare, table, notation)
+            or table.get(_plain(label.short, notation), ())
             or (self._segment(label, notation) if common else ())
         )
 
@@ -121,10 +125,18 @@ class Symbols:
         return (bracketed(segment),) if segment else ()
 
     def segment_of(self, symbol: str, notation: str) -> str:
-        """The IPA segment that *symbol* of *notation* writes, as far as one can tell."""
+        """The IPA segment that *symbol* of *notation* writes, without diacritics that do not show; nothing when it is none."""
+        plain = _plain(symbol, notation)
         if notation in IPA_NOTATIONS:
-            return symbol
-        return self.xsampa.get(symbol, "") if notation in SAMPA_NOTATIONS else ""
+            return symbol if symbol in self.segments else plain
+        return self.xsampa.get(symbol) or self.xsampa.get(plain, "") if notation in SAMPA_NOTATIONS else ""
+
+
+def _plain(symbol: str, notation: str) -> str:
+    """*symbol* without diacritics that do not show, where the notation writes such."""
+    if notation in IPA_NOTATIONS:
+        return without_diacritics(symbol)
+    return _SAMPA_DIACRITICS.sub("", symbol) if notation in SAMPA_NOTATIONS else symbol
 
 
 def _aliases(records: Records, language: str) -> dict[str, dict[str, Parts]]:
