@@ -202,10 +202,15 @@ TABLES: tuple[Table, ...] = (
     # How words are read where the language's own reader can't know: pinyin with tone numbers for Mandarin.
     Table("{language}/readings.tsv", _columns("word reading " + _SOURCED, word=_name, source=_name), ("word",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
-    # A character. *mesh* is `built:NAME` for the shipped ones, or a file in the character's folder.
+    # A character. *drawing* is `built:NAME` for the shipped ones, else `mesh.glb`, `objects` or `pictures`: what stands in
+    # the character's folder. *shapes* names the set whose shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to
+    # one when that is the pose set itself), and the character's own links.tsv comes on top.
     Table(
         "characters/{character}/character.tsv",
-        _columns("character pose_set drawing title " + _SOURCED, character=_name, pose_set=_name, source=_name),
+        _columns(
+            "character pose_set shapes? drawing title " + _SOURCED,
+            character=_name, pose_set=_name, shapes=_name, drawing=_name, source=_name,
+        ),
         ("character",),
     ),
     Table("characters/{character}/links.tsv", _LINK, ("pose", "shape")),

@@ -1,0 +1,134 @@
+"""A character: a name, a pose set, links from its poses to shapes of its own, and something to draw."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from lipdb.characters.links import closing_shapes, identity_links, through_links
+from lipdb.curves.through import Link, link_from_row
+from lipdb.errors import InputError, MeshError, PhonesetError
+from lipdb.paths import data_dir
+from lipdb.poses import PoseSet
+from lipdb.track import Track
+
+if TYPE_CHECKING:
+    from lipdb.characters.mesh import Mesh
+    from lipdb.curated.tsv import Records, Row
+
+BUILT = "built:"
+MESH_FILE, OBJECTS, PICTURES = "mesh.glb", "objects", "pictures"
+PICTURE_SUFFIXES = (".svg", ".png")
+NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+@dataclass(frozen=True, eq=False)
+class Character:
+    """Who speaks.
+
+    *links* lead from the poses of *pose_set* to the character's own shapes; *closures* are the shapes that close its
+    mouth. *drawing* says what there is to draw: ``built:robin``, ``built:crab`` and ``built:flat`` come with lipdb;
+    ``mesh.glb``, ``objects`` (OBJ files) and ``pictures`` are kept in *folder*.
+    """
+
+    name: str
+    title: str
+    pose_set: str
+    drawing: str
+    links: tuple[Link, ...]
+    closures: tuple[str, ...] = ()
+    folder: Path | None = None
+
+    @classmethod
+    def from_records(cls, records: Records, name: str, *, folder: Path | None = None) -> Self:
+        """The character *name* of the curated tables; *folder* is where the files of added characters are.
+
+        Its links are those of ``links/POSE_SET/SHAPES.tsv``, where the character's row names SHAPES (one shape a pose
+        when that is the pose set itself); rows of ``characters/NAME/links.tsv`` come on top of them and win. Raises
+        `InputError` when there is no such character, `PhonesetError` when its tables don't fit together.
+        """
+        path = f"characters/{name}/character.tsv"
+        row = records.get(path, {}).get((name,)) if NAME.fullmatch(name) else None
+        if row is None:
+            known = sorted(p.split("/")[1] for p in records if p.endswith("/character.tsv"))
+            raise InputError(f"there is no character {name!r}; there are {', '.join(known) or 'none'}")
+        poses = PoseSet.from_records(records, row["pose_set"])
+        links = _links(records, row, poses.poses)
+        if not links:
+            raise PhonesetError(f"characters/{name}: no links to its shapes; name a set in {path}, column shapes, or add links.tsv")
+        must_reach = [pose for pose, must in zip(poses.poses, poses.must_reach, strict=True) if must]
+        own = folder / name if folder else None
+        return cls(name, row["title"], row["pose_set"], row["drawing"], links, closing_shapes(links, must_reach), own)
+
+    def shapes(self, track: Track) -> Track:
+        """Weights of the character's own shapes for *track*, which holds weights of its poses."""
+        return through_links(track, self.links)
+
+    @cached_property
+    def mesh(self) -> Mesh | None:
+        """The mesh to draw, or None for a character of pictures. Raises `MeshError` when its file is missing or broken."""
+        if self.drawing.startswith(BUILT):
+            return built_mesh(self.drawing.removeprefix(BUILT))
+        if self.drawing == MESH_FILE:
+            from lipdb.characters.gltf_read import read_glb
+
+            return read_glb(self._own(MESH_FILE), name=self.name)
+        if self.drawing == OBJECTS:
+            from lipdb.characters.obj_read import read_objects
+
+            return read_objects(self._own(OBJECTS), name=self.name)
+        return None
+
+    @cached_property
+    def pictures(self) -> Mapping[str, Path]:
+        """Shape to SVG or PNG file; empty for a character with a mesh. Raises `MeshError` when there are none."""
+        if self.drawing == f"{BUILT}flat":
+            return picture_files(data_dir("phonesets") / "characters" / "flat")
+        return picture_files(self._own(PICTURES)) if self.drawing == PICTURES else {}
+
+    def _own(self, what: str) -> Path:
+        if self.folder is None or not (self.folder / what).exists():
+            where = self.folder / what if self.folder else what
+            raise MeshError(f"character {self.name!r}: {where} is missing; add it again with `lipdb character add`")
+        return self.folder / what
+
+
+def _links(records: Records, row: Row, poses: tuple[str, ...]) -> tuple[Link, ...]:
+    """The shared links that *row* names with the character's own on top, sorted by pose."""
+    shared = row["shapes"]
+    rows: dict[tuple[str, str], Link] = {}
+    if shared == row["pose_set"]:
+        rows = {(link.pose, link.shape): link for link in identity_links(poses)}
+    elif shared:
+        path = f"links/{row['pose_set']}/{shared}.tsv"
+        if path not in records:
+            raise PhonesetError(f"characters/{row['character']}/character.tsv: there is no {path}; name another set in column shapes")
+        rows = {(link.pose, link.shape): link for link in map(link_from_row, records[path].values())}
+    own = map(link_from_row, records.get(f"characters/{row['character']}/links.tsv", {}).values())
+    rows.update({(link.pose, link.shape): link for link in own})
+    kept = [link for link in rows.values() if link.gain]
+    return tuple(sorted(kept, key=lambda link: (poses.index(link.pose) if link.pose in poses else len(poses), link.shape)))
+
+
+def built_mesh(name: str) -> Mesh | None:
+    """The mesh of a character that comes with lipdb; None for the flat mouth. Raises `MeshError` for another name."""
+    from lipdb.characters.crab import crab
+    from lipdb.characters.human import robin
+
+    built: dict[str, Callable[[], Mesh | None]] = {"robin": robin, "crab": crab, "flat": lambda: None}
+    if name not in built:
+        raise MeshError(f"drawing built:{name}: no such face comes with lipdb; there are {', '.join(sorted(built))}")
+    return built[name]()
+
+
+def picture_files(folder: Path) -> dict[str, Path]:
+    """Shape to picture: every SVG and PNG of *folder*, named as its shape. Raises `MeshError` when there are none."""
+    files = sorted(folder.iterdir()) if folder.is_dir() else []
+    pictures = {file.stem: file for file in files if file.suffix.lower() in PICTURE_SUFFIXES and file.is_file()}
+    if not pictures:
+        raise MeshError(f"{folder}: no SVG or PNG pictures in it; name each after its shape, such as A.svg")
+    return pictures
