@@ -286,8 +286,10 @@ def test_unknown_symbols_are_all_counted_with_the_nearest_phone_and_why():
 
 
 def test_a_misspelt_symbol_is_met_with_the_one_written_alike():
-    with pytest.raises(UnknownSymbolError, match=r"'AAY' \(1x, nearest 'Y'"):
-        XX.resolve(said(["AAY"], "arpabet"))
+    with pytest.raises(UnknownSymbolError, match=r"'AYY' \(1x, nearest 'Y', written nearly as 'AY'"):
+        XX.resolve(said(["AYY"], "arpabet"))
+    with pytest.raises(UnknownSymbolError, match=r"'bia3' \(1x, nearest 'b ua', written nearly as 'bua'"):
+        YY.resolve(said(["bia3"], "pinyin"))
 
 
 def test_on_demand_unknown_symbols_are_mapped_by_articulation_and_still_reported():

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError, PhonesetError, ScheduleError, UnknownSymbolError
 from lipdb.phones.articulation import NEUTRAL, classify, nearest
-from lipdb.phones.labels import Label, read_label
+from lipdb.phones.labels import IPA_NOTATIONS, SAMPA_NOTATIONS, Label, read_label
 from lipdb.phones.mapping import ARTICULATION, COMMON, Mapped, Mappings, bracketed, unbracketed
 from lipdb.phones.symbols import Symbols
 from lipdb.schedule import SILENCE, Phone, Schedule
@@ -130,15 +130,26 @@ class PhoneSet:
         return unbracketed(symbol) or self.symbols.segment_of(form, notation) or form
 
     def _unknown(self, symbol: str, count: int, notation: str) -> Unknown:
+        """What to say of a symbol: IPA and SAMPA are read letter by letter, of other notations the spelling says more."""
+        phonetic = notation in IPA_NOTATIONS | SAMPA_NOTATIONS
+        say = (self._sounding, self._written) if phonetic else (self._written, self._sounding)
+        proposal, reason = (
+            say[0](symbol, notation)
+            or say[1](symbol, notation)
+            or ("", f"nothing is known of it; --allow-unknown takes the neutral vowel {NEUTRAL}")
+        )
+        return Unknown(symbol, count, proposal, reason)
+
+    def _sounding(self, symbol: str, notation: str) -> tuple[str, str] | None:
+        """The phone that looks most like *symbol* read as IPA, and why."""
         segment = self._segment(symbol, notation)
-        guess = classify(segment)
-        table = {m.phone: m.ipa for m in self}
-        if guess and (near := nearest(segment, table)):
-            return Unknown(symbol, count, near[0], f"by articulation it is {' '.join(guess.common)}: {guess.reason}")
-        alike = get_close_matches(symbol, self.symbols.aliases.get(notation, {}), 1)
-        if alike:
-            return Unknown(symbol, count, " ".join(self.symbols.aliases[notation][alike[0]]), f"written nearly as {alike[0]!r}")
-        return Unknown(symbol, count, "", f"nothing is known of it; --allow-unknown takes the neutral vowel {NEUTRAL}")
+        guess, near = classify(segment), nearest(segment, {phone.phone: phone.ipa for phone in self})
+        return (near[0], f"by articulation it is {' '.join(guess.common)}: {guess.reason}") if guess and near else None
+
+    def _written(self, symbol: str, notation: str) -> tuple[str, str] | None:
+        """What a symbol that is written nearly as *symbol* stands for, and which one."""
+        alike = get_close_matches(read_label(symbol, notation).short, self.symbols.spellings(notation), 1)
+        return (" ".join(self.symbols.parts(alike[0], notation)), f"written nearly as {alike[0]!r}") if alike else None
 
     def _complaint(self, unknown: tuple[Unknown, ...], notation: str) -> str:
         each = (

@@ -64,6 +64,10 @@ class Symbols:
         """Every notation that the language reads, its own first."""
         return (self.own, *sorted(self.aliases.keys() - {self.own}))
 
+    def spellings(self, notation: str) -> tuple[str, ...]:
+        """Every symbol of *notation*, and every written syllable where the notation is the language's own."""
+        return (*self.aliases.get(notation, {}), *(self.syllables.phones if notation == self.own else ()))
+
     def parts(self, symbol: str, notation: str, *, common: bool = True) -> Parts:
         """The phones that *symbol* of *notation* stands for, ``_`` for a pause; nothing when it is unknown.
 
