@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     from lipdb.sound import Sound
     from lipdb.track import Track
 
+HOLD = 0.08
+"""Seconds that a sprite cue is held at least: two frames of film at 24 a second, as hand-drawn mouths are."""
+
+REST_NAMES = ("X", "rest", "neutral")
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Performance:
@@ -34,11 +39,17 @@ class Performance:
         """Weights of the character's own shapes, through its links."""
         return self.character.shapes(self.track)
 
-    def cues(self, hold: float | None = None) -> list[Cue]:
-        """One shape at a time, each held for *hold* seconds or more: ``(start, end, shape)``, closures never lost."""
-        from lipdb.export.cues import HOLD, cues
+    @property
+    def rest(self) -> str:
+        """The shape of silence: the character's own if it has one of the usual names, else ``X``."""
+        shapes = (*self.character.pictures, *self.shapes.poses)
+        return next((name for name in REST_NAMES if name in shapes), REST_NAMES[0])
 
-        return cues(self.shapes, HOLD if hold is None else hold, keep=self.character.closures)
+    def cues(self, hold: float = HOLD) -> list[Cue]:
+        """One shape at a time, each held for *hold* seconds or more: ``(start, end, shape)``, closures never lost."""
+        from lipdb.export.cues import cues
+
+        return cues(self.shapes, hold, keep=self.character.closures, rest=self.rest)
 
     def save(self, path: str | Path) -> None:
         """Write to *path* in the format that its suffix names (see docs/formats.md), whole or not at all.

@@ -100,7 +100,7 @@ def test_a_closure_shorter_than_the_hold_is_kept_and_without_keeping_it_is_lost(
 def test_silence_rests() -> None:
     weights = np.zeros((60, 3))
     weights[20:40, 1] = 0.8
-    assert [(round(start, 4), round(end, 4), shape) for start, end, shape in cues(Track(weights, SHAPES, 60.0))] == [
+    assert [(round(start, 4), round(end, 4), shape) for start, end, shape in cues(Track(weights, SHAPES, 60.0), 0.08)] == [
         (0.0, 0.3333, "X"),
         (0.3333, 0.6667, "B"),
         (0.6667, 1.0, "X"),
@@ -108,10 +108,10 @@ def test_silence_rests() -> None:
 
 
 def test_no_frames_give_no_cues() -> None:
-    assert cues(Track(np.zeros((0, 3)), SHAPES, 60.0)) == []
+    assert cues(Track(np.zeros((0, 3)), SHAPES, 60.0), 0.08) == []
 
 
 def test_an_hour_takes_seconds() -> None:
     ticks = np.arange(60 * 60 * 30)
     weights = np.stack([np.sin(ticks / k) ** 2 for k in (5, 7, 9)], axis=1)
-    assert len(cues(Track(weights, SHAPES, 30.0), keep={"A"})) > 1000
+    assert len(cues(Track(weights, SHAPES, 30.0), 0.08, keep={"A"})) > 1000

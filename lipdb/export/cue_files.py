@@ -6,8 +6,6 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipdb.export.cues import REST
-
 if TYPE_CHECKING:
     from lipdb.performance import Performance
 
@@ -16,7 +14,7 @@ def write_cue_tsv(performance: Performance, path: Path) -> None:
     """A line a cue, start and shape; the last line closes with the rest shape at the end."""
     found = performance.cues()
     lines = [f"{start:.2f}\t{shape}" for start, _, shape in found]
-    lines += [f"{found[-1][1]:.2f}\t{REST}"] if found else []
+    lines += [f"{found[-1][1]:.2f}\t{performance.rest}"] if found else []
     path.write_text("".join(f"{line}\n" for line in lines), "utf-8", newline="\n")
 
 

@@ -11,12 +11,6 @@ from numpy.typing import NDArray
 
 from lipdb.track import Track
 
-HOLD = 0.08
-"""Seconds: two frames of film at 24 a second, what hand-drawn mouths are held at least."""
-
-REST = "X"
-"""The mouth of silence, by Rhubarb's name."""
-
 REST_WEIGHT = 0.12
 """A frame in which no shape weighs more than this is at rest."""
 
@@ -29,12 +23,13 @@ Cue = tuple[float, float, str]
 """Start and end in seconds, and the shape between them."""
 
 
-def cues(track: Track, hold: float = HOLD, *, keep: Collection[str] = (), rest: str = REST) -> list[Cue]:
+def cues(track: Track, hold: float, *, keep: Collection[str] = (), rest: str = "X") -> list[Cue]:
     """The shapes of *track*, winner takes all, none held for less than *hold* seconds.
 
     Contiguous from 0 to the track's end. Of all ways to cut the line that respect *hold*, the one whose shown weights add
     up to most. *keep* names shapes that must not be lost (lips that close): wherever one reaches `REACHED`, its highest
-    frame is shown, unless that of another such shape is nearer than *hold*. A line shorter than *hold* is one cue.
+    frame is shown, unless that of another such shape is nearer than *hold*. *rest* is the shape of a frame in which nothing weighs
+    more than `REST_WEIGHT`. A line shorter than *hold* is one cue.
     """
     if not len(track.weights):
         return []

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lipdb.errors import MeshError
 from lipdb.render.flat import Pictures
 from lipdb.render.renderer import Renderer
 from lipdb.track import Track
@@ -23,7 +24,7 @@ SIZE = (640, 640)
 def film(performance: Performance, *, fps: float = FPS, size: tuple[int, int] = SIZE, view: str = "front") -> Iterator[NDArray[np.uint8]]:
     """Pictures ``(height, width, 3)`` of the whole performance, *fps* a second, until both track and sound have ended.
 
-    A mesh is drawn at the shapes' weights; flat pictures follow the cues, held as `lipdb.export.cues` holds them.
+    A mesh is drawn at the shapes' weights; flat pictures follow the cues, held as `Performance.cues` holds them.
     """
     times = np.arange(frame_count(performance, fps)) / fps
     yield from stills(performance, times, size=size, view=view)
@@ -45,6 +46,8 @@ def stills(
         pictures = Pictures(character.pictures, size=size)
         yield from (pictures.draw(shape) for shape in shapes_at(performance, times))
         return
+    if character.mesh is None:
+        raise MeshError(f"character {character.name!r} has neither a mesh nor pictures to draw; add one with `lipdb character add`")
     shapes = performance.shapes
     weights = sampled(shapes, times)
     with Renderer(character.mesh, size=size, view=view) as renderer:
