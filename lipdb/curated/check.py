@@ -93,6 +93,10 @@ def _set_poses(names: Names, parts: Parts, _row: Row) -> Collection[str]:
     return names.poses(parts["pose_set"])
 
 
+def _set(column: str) -> Reference:
+    return Reference(column, "pose set", lambda names, _parts, _row: names.sets)
+
+
 _COMMON = Reference("common", "common phone", _common, many=True)
 _CURVE = (Reference("left", "common phone", _common), Reference("right", "common phone", _common), Reference("pose", "pose", _set_poses))
 _SOURCE = Reference("source", "source", lambda names, _parts, _row: names.sources)
@@ -115,7 +119,7 @@ REFERENCES: Mapping[str, tuple[Reference, ...]] = {
     ),
     "{language}/syllables.tsv": (Reference("initial", "phone", _own_phones), Reference("final", "phone", _own_phones)),
     "{language}/curves/{pose_set}.tsv": _CURVE,
-    "characters/{character}/character.tsv": (Reference("pose_set", "pose set", lambda names, _parts, _row: names.sets),),
+    "characters/{character}/character.tsv": (_set("pose_set"), _set("shapes")),
     "characters/{character}/links.tsv": (Reference("pose", "pose", lambda names, parts, _row: names.character_poses(parts["character"])),),
     "characters/{character}/curves/{pose_set}.tsv": _CURVE,
     "characters/{character}/mapping.tsv": (
@@ -193,6 +197,13 @@ def _own_name(part: str) -> Callable[[Parts, Row, Names], Iterator[tuple[str, st
     return checked
 
 
+def _character(parts: Parts, row: Row, names: Names) -> Iterator[tuple[str, str]]:
+    yield from _own_name("character")(parts, row, names)
+    path = f"links/{row['pose_set']}/{row['shapes']}.tsv"
+    if row["shapes"] and row["shapes"] != row["pose_set"] and not names.records.get(path):
+        yield "shapes", f"no links lead there; add {path}"
+
+
 _SPECIAL: Mapping[str, Callable[[Parts, Row, Names], Iterator[tuple[str, str]]]] = {
     "poses/sets.tsv": _pose_set,
     "constraints/{pose_set}.tsv": _constraint,
@@ -202,7 +213,7 @@ _SPECIAL: Mapping[str, Callable[[Parts, Row, Names], Iterator[tuple[str, str]]]]
     "{language}/language.tsv": _own_name("language"),
     "{language}/phones.tsv": _phone,
     "{language}/aliases.tsv": _alias,
-    "characters/{character}/character.tsv": _own_name("character"),
+    "characters/{character}/character.tsv": _character,
 }
 
 
