@@ -112,8 +112,16 @@ def test_good_tables_have_no_findings():
             "characters/ann/character.tsv:2:5: pose set 'faec' does not exist; did you mean 'face'?",
         ),
         ("characters/ann/character.tsv", {"character": "bob"}, "characters/ann/character.tsv:2:1: 'bob' stands in the folder of 'ann'"),
-        ("characters/ann/character.tsv", {"shapes": "xyz"}, "characters/ann/character.tsv:2:10: pose set 'xyz' does not exist; there are face"),
-        ("characters/ann/character.tsv", {"shapes": "xyz"}, "characters/ann/character.tsv:2:10: no links lead there; add links/face/xyz.tsv"),
+        (
+            "characters/ann/character.tsv",
+            {"shapes": "xyz"},
+            "characters/ann/character.tsv:2:10: pose set 'xyz' does not exist; there are face",
+        ),
+        (
+            "characters/ann/character.tsv",
+            {"shapes": "xyz"},
+            "characters/ann/character.tsv:2:10: no links lead there; add links/face/xyz.tsv",
+        ),
         ("characters/ann/links.tsv", {"pose": "opn"}, "characters/ann/links.tsv:2:1: pose 'opn' does not exist; did you mean 'open'?"),
         ("characters/ann/mapping.tsv", {"phone": "AA"}, "characters/ann/mapping.tsv:2:4: phone 'AA' does not exist; did you mean 'A'?"),
         ("poses/face.tsv", {"position": "1"}, "poses/face.tsv:3:6: position '1' stands for 'open' already"),
