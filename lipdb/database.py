@@ -134,9 +134,10 @@ class Database:
     def character(self, name: str) -> Character:
         """The character *name*. Raises `InputError` when there is none."""
         from lipdb.characters.character import Character
+        from lipdb.paths import home
 
         known = {row["character"]: row for row in self.characters()}
-        return Character.from_records(self.records, _known(name, known, "character"), folder=self.store.characters_folder)
+        return Character.from_records(self.records, _known(name, known, "character"), folder=home() / "characters")
 
     def pose_set(self, name: str) -> PoseSet:
         """The pose set *name*."""
