@@ -1,0 +1,30 @@
+"""Every test run has a home, a cache and a database of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import lipdb
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_places(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Keep the tests away from the data, the cache and the settings of the person who runs them."""
+    home = tmp_path_factory.mktemp("home")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("LIPDB_HOME", str(home / "data"))
+        patch.setenv("LIPDB_CACHE", str(home / "cache"))
+        patch.setenv("LIPDB_AUTHOR", "tester")
+        patch.delenv("LIPDB_URL", raising=False)
+        patch.delenv("LIPDB_PHONESETS", raising=False)
+        yield home
+
+
+@pytest.fixture(scope="session")
+def db(own_places: Path) -> Iterator[lipdb.Database]:
+    """A database with the shipped data. Tests that edit make one of their own."""
+    with lipdb.open(own_places / "shipped.db") as database:
+        yield database
