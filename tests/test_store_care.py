@@ -105,6 +105,11 @@ class TestBackup:
         with closing(Store.open(tmp_path / "b.db", TEXT)) as copy:
             assert copy.revision == 2
 
+    def test_a_store_is_not_its_own_backup(self, store, tmp_path):
+        with pytest.raises(InputError, match="this is the database itself"):
+            store.backup(tmp_path / "." / "a.db")
+        assert store.check() == []
+
 
 def cell(column: str, text: str) -> str:
     """SQL that writes *text* into a cell of the source `user`."""

@@ -1,5 +1,6 @@
 """Many people and programs use one database at once: nothing is lost, nobody is turned away."""
 
+import sqlite3
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -127,3 +128,13 @@ def test_what_two_people_saw_can_be_saved_only_once(file):
                 outcomes.append("refused")
         assert outcomes == ["saved", "refused"]
         assert store.record("sources.tsv", ("shared0",)).row["comment"] == "anna"
+
+
+def test_opening_a_store_does_not_drop_the_locks_of_others_in_the_same_program(file):
+    # Closing any handle of a file drops all locks that the process has on it; only SQLite itself may open the file.
+    code = "import sqlite3, sys; sqlite3.connect(sys.argv[1], timeout=0.05, isolation_level=None).execute('BEGIN IMMEDIATE')"
+    with closing(sqlite3.connect(file, isolation_level=None)) as writer:
+        writer.execute("BEGIN IMMEDIATE")
+        Store.open(file, TEXT).close()
+        other = process(code, file)
+        assert "database is locked" in other.communicate(timeout=60)[1]

@@ -17,10 +17,11 @@ import sqlalchemy as sa
 from lipdb.curated.folder import read_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Finding, Key, Row
+from lipdb.errors import InputError
 from lipdb.paths import home, phonesets_dir
 from lipdb.store.cells import nested, records_from
 from lipdb.store.edit import Edit
-from lipdb.store.engines import database_url, description, file_exists, is_file, make_engine, place_of, reading, writing
+from lipdb.store.engines import database_url, description, has_content, is_file, make_engine, place_of, reading, writing
 from lipdb.store.failures import plain_errors
 from lipdb.store.history import Change, Revision, difference, read_changes, read_revisions, require_revision, state_at
 from lipdb.store.merge import Merge
@@ -96,7 +97,7 @@ class Store:
         return (Path(self.where).parent if is_file(self._url) else home()) / "characters"
 
     def describe(self) -> str:
-        """Which database this is, in a line: where, what kind, how it guards against crashes, its schema."""
+        """Which database this is, in a line: where, what kind, which schema."""
         return f"{self.where} ({description(self._reader)}, schema {SCHEMA})"
 
     # Reading
@@ -228,9 +229,14 @@ class Store:
             return findings(connection, self.where)
 
     def backup(self, file: Path) -> None:
-        """Copy the whole store, history included, into the SQLite file *file*, in place of an older one."""
+        """Copy the whole store, history included, into the SQLite file *file*, in place of an older one.
+
+        Raises `InputError` when *file* is the store itself, `OutputError` when it can't be written.
+        """
         from lipdb.store.backup import back_up
 
+        if is_file(self._url) and file.resolve() == Path(self.where).resolve():
+            raise InputError(f"{file}: this is the database itself; give the backup another name")
         with self._reading() as connection:
             back_up(connection, file)
 
@@ -248,7 +254,7 @@ class Store:
 
     def _schema(self) -> str:
         # SQLite would make a missing file; reading must not.
-        if not file_exists(self._url):
+        if not has_content(self._url):
             return ""
         with self._reading() as connection:
             return schema_of(connection, self.where)

@@ -1,4 +1,9 @@
-"""Connections: which database, and how SQLite is set up for many readers and colliding writers."""
+"""Connections: which database, and how SQLite is set up for many readers and colliding writers.
+
+SQLite keeps its rollback journal. The write-ahead log would let readers and a writer pass each other, but it can damage
+a file before SQLite 3.51.3, can't be read in a folder that is read-only, and makes three files of one; a hundred
+edits a second are enough.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +18,6 @@ from lipdb.errors import StoreError
 from lipdb.paths import DATABASE, home
 
 BUSY_MILLISECONDS = 5000
-# SQLite 3.7.0 to 3.51.2 can damage a database in WAL mode when its log is reset while another program writes.
-WAL_IS_SAFE = sqlite3.sqlite_version_info >= (3, 51, 3)
 WRITER_LOCK = 0x6C697064  # "lipd": PostgreSQL's advisory lock that writers take in turn.
 _DRIVERS = {
     "sqlite": "sqlite",
@@ -22,7 +25,7 @@ _DRIVERS = {
     "postgresql": "postgresql+psycopg",
     "postgresql+psycopg": "postgresql+psycopg",
 }
-_SQLITE_HEADER = b"SQLite format 3\0"
+_SMALLEST_FILE = 512  # Bytes: one page of the smallest size.
 
 
 def database_url(place: str | Path | None = None) -> sa.URL:
@@ -56,23 +59,24 @@ def is_file(url: sa.URL) -> bool:
     return url.get_backend_name() == "sqlite"
 
 
-def file_exists(url: sa.URL) -> bool:
-    """Whether the SQLite file at *url* is there and has something in it; True for other databases.
+def has_content(url: sa.URL) -> bool:
+    """Whether the SQLite file at *url* is there and not empty; True for other databases.
 
-    Raises `StoreError` for a file of another kind: SQLite would take a very short one for an empty database.
+    Raises `StoreError` for a file too short for a database, which SQLite would take for an empty one.
     """
     if not is_file(url):
         return True
+    # Never open and close the file itself: that would drop the locks that this process holds on it (POSIX), and
+    # two writers at once damage it.
     try:
-        with Path(place_of(url)).open("rb") as file:
-            start = file.read(len(_SQLITE_HEADER))
+        size = Path(place_of(url)).stat().st_size
     except FileNotFoundError:
         return False
     except OSError as error:
         raise StoreError(f"{place_of(url)}: the database can't be opened ({error.strerror}); give another one with --db") from error
-    if start and start != _SQLITE_HEADER:
+    if 0 < size < _SMALLEST_FILE:
         raise StoreError(f"{place_of(url)}: this file is not a database; give another one with --db, or move it away and a new one is made")
-    return bool(start)
+    return size > 0
 
 
 def make_engine(url: sa.URL, *, foreign_keys: bool = True) -> sa.Engine:
@@ -115,19 +119,6 @@ def _begin(connection: sa.Connection) -> None:
         connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({WRITER_LOCK})")
 
 
-def choose_journal(engine: sa.Engine) -> None:
-    """Set the journal of a new SQLite file: the write-ahead log where it is safe, else the rollback journal."""
-    if WAL_IS_SAFE and is_file(engine.url):
-        connection = engine.raw_connection()
-        try:
-            connection.cursor().execute("PRAGMA journal_mode=WAL")
-        finally:
-            connection.close()
-
-
 def description(engine: sa.Engine) -> str:
-    """The kind of database: its version, and for a SQLite file its journal."""
-    if engine.dialect.name != "sqlite":
-        return engine.dialect.name
-    journal = "write-ahead log" if WAL_IS_SAFE else "rollback journal, as the write-ahead log of this version can damage files"
-    return f"SQLite {sqlite3.sqlite_version}, {journal}"
+    """The kind of database and its version, for a person to read."""
+    return f"SQLite {sqlite3.sqlite_version}" if engine.dialect.name == "sqlite" else "PostgreSQL"

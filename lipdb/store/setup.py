@@ -11,7 +11,7 @@ import sqlalchemy as sa
 from lipdb.curated.folder import read_folder
 from lipdb.errors import StoreError
 from lipdb.paths import home
-from lipdb.store.engines import choose_journal, is_file, make_engine, place_of, writing
+from lipdb.store.engines import is_file, make_engine, place_of, writing
 from lipdb.store.failures import plain_errors
 from lipdb.store.migrate import require_current, schema_of, upgrade_schema
 from lipdb.store.shipped import fill, text_digest
@@ -61,7 +61,6 @@ def _migrating(url: sa.URL) -> Iterator[sa.Connection]:
 
     with plain_errors(place_of(url)):
         engine = make_engine(url, foreign_keys=False)
-        choose_journal(engine)
         with writing(engine).begin() as connection:
             yield connection
         engine.dispose()
