@@ -66,6 +66,11 @@ def test_a_label_that_an_event_cuts_within_a_character_is_whole():
     assert "".join(label.strip("ˈˌ") for label in labels) == "kɯᵝɯᵝ"
 
 
+def test_a_modifier_that_is_played_by_itself_belongs_to_the_phone_in_front():
+    labels = [mark.label.strip("ˈˌ") for mark in libespeak.speak("ニュー", "ja").marks]
+    assert labels[1:3] == ["nʲ", "ɯᵝɯᵝ"]
+
+
 def test_a_length_that_a_rule_adds_is_kept():
     assert "pː" in [mark.label for mark in libespeak.speak("septiembre", "es").marks]
 

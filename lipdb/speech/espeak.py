@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import os
 import re
+import threading
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cache
 from importlib.metadata import version as package_version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +36,7 @@ SHORTEST_PAUSE = 0.06
 STRESS = {"ˈ": 1, "ˌ": 2}
 # Where the label says plosive or affricate; [^ʰ...] marks do not change where the closure is.
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
+_PHONEMIZING = threading.Lock()
 SWITCH = re.compile(r"\([a-z-]+\)")
 EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?…–—-]+$")
 
@@ -107,8 +110,17 @@ def phonemize(text: str, voice: str) -> list[list[str]]:
     """The IPA labels, with stress, of every word of *text*, by phonemizer.
 
     Its wrapper is used bare: the backend on top of it takes the punctuation out, which changes how numbers and the ends
-    of clauses are read. A new wrapper for each text, because one keeps the end of the last text in mind.
+    of clauses are read.
     """
+    with _PHONEMIZING:
+        spoken = SWITCH.sub("", _phonemizer(voice).text_to_phonemes(text))
+    words = [[label for label in word.split("_") if label.strip("ˈˌ")] for word in spoken.split()]
+    return [word for word in words if word]
+
+
+@cache
+def _phonemizer(voice: str) -> Any:
+    """One wrapper a voice: each keeps a library of its own, and never gives its memory back."""
     library, data = find_espeak()
     os.environ.setdefault("PHONEMIZER_ESPEAK_LIBRARY", str(library))
     if data:
@@ -117,9 +129,7 @@ def phonemize(text: str, voice: str) -> list[list[str]]:
 
     wrapper = EspeakWrapper()
     wrapper.set_voice(voice)
-    spoken = SWITCH.sub("", wrapper.text_to_phonemes(text))
-    words = [[label for label in word.split("_") if label.strip("ˈˌ")] for word in spoken.split()]
-    return [word for word in words if word]
+    return wrapper
 
 
 def words_of(text: str, marks: tuple[Mark, ...]) -> tuple[tuple[str, ...], list[int]]:

@@ -17,6 +17,7 @@ import itertools
 import os
 import shutil
 import tempfile
+import unicodedata
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from ctypes.util import find_library
@@ -164,7 +165,7 @@ def _marks(events: list[tuple[int, int, Any]], whole: list[str], lead: int, tota
     phoneme trace of the same synthesis has the whole label of every event that is no pause, in the same order.
     """
     starts = [lead + sample for kind, sample, _ in events if kind == EVENT_PHONEME] + [total]
-    sounding = sum(1 for kind, _, raw in events if kind == EVENT_PHONEME and not _is_pause(raw))
+    sounding = sum(1 for kind, _, raw in events if kind == EVENT_PHONEME and _is_phone(raw.decode("utf-8", "ignore")))
     if sounding != len(whole):
         raise MissingToolError(
             f"espeak-ng: it played {sounding} phones but named {len(whole)}, so it is of no use; run `pip install espeakng-loader`"
@@ -174,17 +175,28 @@ def _marks(events: list[tuple[int, int, Any]], whole: list[str], lead: int, tota
     for kind, sample, payload in events:
         if kind == EVENT_WORD:
             position = payload
+            continue
+        label, end = payload.decode("utf-8", "ignore"), next(ends)
+        if _is_modifier(label):
+            marks[-1] = marks[-1]._replace(end=end)
         else:
-            marks.append(Mark("" if _is_pause(payload) else next(names), lead + sample, next(ends), position))
+            marks.append(Mark(next(names) if _is_phone(label) else "", lead + sample, end, position))
     return tuple(marks)
 
 
-def _is_pause(raw: bytes) -> bool:
-    return not raw.decode("utf-8", "ignore").strip(STRESS + "',%=|_:!")
+def _is_phone(label: str) -> bool:
+    """Whether *label* names a phone: it is no pause and no modifier."""
+    return bool(label.strip(STRESS + "',%=|_:!")) and not _is_modifier(label)
+
+
+def _is_modifier(label: str) -> bool:
+    """Whether *label* is only a modifier, as ʲ, which espeak plays by itself and writes behind the phone in front."""
+    bare = label.strip(STRESS)
+    return bool(bare) and all(unicodedata.category(sign) in ("Lm", "Mn") for sign in bare)
 
 
 def _labels(clause: str) -> list[str]:
-    return [label for word in clause.split() for label in word.split(SEPARATOR) if not _is_pause(label.encode())]
+    return [label for word in clause.split() for label in word.split(SEPARATOR) if _is_phone(label)]
 
 
 @contextmanager
@@ -221,9 +233,7 @@ def _private_library() -> Iterator[tuple[ctypes.CDLL, bytes | None]]:
             if data:
                 near.symlink_to(data)  # espeak cuts paths at 160 characters
         except OSError as error:
-            raise MissingToolError(
-                f"espeak-ng: no private copy of {path} can be made ({error}); set TMPDIR to a folder with space"
-            ) from error
+            raise MissingToolError(f"espeak-ng: no private copy of {path} can be made ({error}); set TMPDIR to another folder") from error
         library = _load(str(copy))
         try:
             yield library, str(near).encode() if data else None
