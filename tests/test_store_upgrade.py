@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lipdb.curated.folder import read_folder, write_folder
+from lipdb.curated.schema import TABLES
 from lipdb.errors import SchemaVersionError
 from lipdb.store import Store
 from lipdb.store.engines import database_url, make_engine, writing
@@ -260,3 +261,16 @@ def test_opening_and_reading_five_thousand_rows_takes_less_than_150_ms(tmp_path)
         times.append(time.perf_counter() - start)
     assert len(rows) == 5006
     assert min(times) < 0.150
+
+
+def test_a_change_of_columns_comes_with_a_migration():
+    """The store keeps rows as they were written: a table with other columns needs a migration of the stored cells.
+
+    After it is written (and before the first release without one): write ``columns.tsv`` again, from `columns_now`.
+    """
+    assert (DATABASES / "columns.tsv").read_text() == columns_now()
+
+
+def columns_now() -> str:
+    lines = [f"{table.pattern}\t{' '.join(table.names)}\t{' '.join(table.key)}" for table in TABLES]
+    return "\n".join([f"schema\t{SCHEMA}\t", *sorted(lines)]) + "\n"

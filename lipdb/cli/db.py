@@ -118,7 +118,7 @@ def check(options: Options, as_json: bool) -> None:
             click.echo(str(one))
     if found:
         raise DataError(f"{store.where}: not in order; mend the rows (lipdb db dump, lipdb db load) or put a backup in its place")
-    click.echo(f"{store.where}: all is well", err=True)
+    click.echo(f"{store.describe()}: all is well", err=True)
 
 
 @db.command()
