@@ -5,6 +5,8 @@ import resource
 import shutil
 import signal
 import sqlite3
+import subprocess
+import sys
 import tempfile
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -239,6 +241,23 @@ def test_a_full_disk_leaves_an_older_backup_as_it_was(file, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.db", "backup.db"]
 
 
+def test_a_program_that_dies_while_it_saves_leaves_everything_as_it_was(file):
+    code = """
+import os, sys
+import sqlalchemy as sa
+from lipdb.store import Store
+from lipdb.store.tables import record
+store = Store.open(*sys.argv[1:])
+with store._writing() as connection:
+    connection.execute(sa.delete(record))
+    os._exit(9)
+"""
+    assert subprocess.run([sys.executable, "-c", code, str(file), str(TEXT)], check=False).returncode == 9
+    with closing(Store.open(file, TEXT)) as store:
+        assert store.records() == read_folder(TEXT)
+        assert store.check() == []
+
+
 class TestPlace:
     """Where the database is when nobody says."""
 
@@ -257,6 +276,14 @@ class TestPlace:
         with closing(Store.open(None, TEXT)) as store:
             assert store.where == str(tmp_path / "home" / "lipdb.db")
             assert store.characters_folder == tmp_path / "home" / "characters"
+
+    def test_a_file_may_have_any_name(self, tmp_path):
+        file = tmp_path / "ü #1 50% off?x=y&z" / "a b:c.db"
+        file.parent.mkdir()
+        with closing(Store.open(file, TEXT)) as store:
+            edit(store)
+            store.backup(file.with_name("b%41.db"))
+        assert sorted(path.name for path in file.parent.iterdir()) == ["a b:c.db", "b%41.db"]
 
     def test_the_text_that_fills_it_can_be_named_by_the_environment(self, tmp_path, monkeypatch):
         monkeypatch.setenv("LIPDB_PHONESETS", str(TEXT))
