@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
+from sqlite3 import sqlite_version
 from typing import Any
 
 import click
@@ -33,6 +34,7 @@ def doctor(options: Options, as_json: bool) -> None:
 
 def _packages() -> Iterator[dict[str, Any]]:
     yield {"part": "python", "state": "ok", "detail": sys.version.split()[0]}
+    yield {"part": "sqlite", "state": "ok", "detail": sqlite_version}
     for package in PACKAGES:
         try:
             yield {"part": package, "state": "ok", "detail": version(package)}
@@ -49,12 +51,13 @@ def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[s
 
 def _database(options: Options) -> str:
     with options.open() as db:
-        return f"{db.store.where}, revision {db.store.revision}"
+        waits = "; newer curated text waits: lipdb db upgrade" if db.store.outdated else ""
+        return f"{db.store.where}, revision {db.store.revision}{waits}"
 
 
 def _voice(options: Options) -> str:
     with options.open() as db:
-        return "; ".join(f"{row['language']}: {db.voice(row['language']).version}" for row in db.languages())
+        return "; ".join(f"{row['language']}: {db.voice(row['language']).version.split(';')[0]}" for row in db.languages())
 
 
 def _pictures(_: Options) -> str:

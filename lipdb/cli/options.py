@@ -24,10 +24,13 @@ class Options:
     phonesets: str | None
 
     def open(self) -> Database:
-        """The database that the options name."""
+        """The database that the options name; says so when newer curated text waits to be merged into it."""
         import lipdb
 
-        return lipdb.open(self.db, phonesets=self.phonesets)
+        database = lipdb.open(self.db, phonesets=self.phonesets)
+        if database.store.outdated:
+            click.echo("lipdb: the curated text has changed since this database took it in; merge it with `lipdb db upgrade`", err=True)
+        return database
 
 
 def json_option(command: F) -> F:

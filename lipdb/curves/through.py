@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Literal
 
 from lipdb.curves.curve import Curve
-from lipdb.curves.keys import DECIMALS, Keys, parse_keys
+from lipdb.curves.keys import DECIMALS, Keys, format_keys, parse_keys
 
 Line = list[tuple[float, float]]
 
@@ -23,6 +23,10 @@ class Link:
     gain: float
     combine: Literal["sum", "max"]
     curve: Keys
+
+    def to_row(self) -> dict[str, str]:
+        """Plain text cells for a listing."""
+        return {"pose": self.pose, "shape": self.shape, "gain": f"{self.gain:g}", "combine": self.combine, "curve": format_keys(self.curve)}
 
 
 def link_from_row(row: Mapping[str, str]) -> Link:
