@@ -10,18 +10,18 @@ from numpy.typing import NDArray
 
 from lipdb.render.gl import on_gl_thread, pyrender
 from lipdb.render.morph import Morph
-from lipdb.render.scene import BACKGROUND_BOTTOM, BACKGROUND_TOP, FIELD_OF_VIEW, LIGHTS, Camera, Floats, light_directions
+from lipdb.render.scene import BACKGROUND_BOTTOM, BACKGROUND_TOP, FIELD_OF_VIEW, Camera, Floats
 
 SHADERS = Path(__file__).parent / "shaders"
-_POSITION, _NORMAL, _FINISH, _COLOUR = slice(0, 3), slice(3, 6), slice(6, 8), slice(8, 12)
-"""Columns of the vertex buffer, in pyrender's order. Alpha is 1 on the mesh and 0 on the wall behind it."""
+_POSITION, _LIGHT = slice(0, 3), slice(3, 6)
+"""Columns of the vertex buffer, in pyrender's order; the last one, alpha, is 1."""
 
 
 class GLPainter:
     """Draws a mesh with OpenGL. Every method does its work on the OpenGL thread; call from any."""
 
-    def __init__(self, morph: Morph, camera: Camera, width: int, height: int) -> None:
-        mesh = np.column_stack([morph.positions, morph.normals, morph.finish, morph.colours, np.ones(len(morph.positions))])
+    def __init__(self, morph: Morph, light: Floats, camera: Camera, width: int, height: int) -> None:
+        mesh = np.column_stack([morph.positions, light, np.ones(len(morph.positions))])
         self._vertices = np.concatenate([mesh, _wall(camera, width / height)]).astype(np.float32)
         corner = len(morph.positions)
         self._faces = np.concatenate([morph.faces, [[corner, corner + 1, corner + 2], [corner, corner + 2, corner + 3]]])
@@ -31,22 +31,20 @@ class GLPainter:
     def _open(self, camera: Camera, width: int, height: int) -> None:
         library = pyrender()
         self._primitive = library.Primitive(
-            positions=self._vertices[:, _POSITION], normals=self._vertices[:, _NORMAL], texcoord_0=self._vertices[:, _FINISH],
-            color_0=self._vertices[:, _COLOUR], indices=self._faces,
+            positions=self._vertices[:, _POSITION],
+            color_0=self._vertices[:, 3:],
+            indices=self._faces,
             material=library.MetallicRoughnessMaterial(),
-        )  # fmt: skip
+        )
         self._scene = library.Scene()
         self._scene.add(library.Mesh([self._primitive]))
         self._scene.add(library.PerspectiveCamera(yfov=FIELD_OF_VIEW, znear=camera.near, zfar=camera.far), pose=camera.pose)
-        for direction, (_, colour) in zip(light_directions(camera), LIGHTS, strict=True):
-            light = library.DirectionalLight(color=np.array(colour), intensity=1.0)
-            self._scene.add(light, pose=_towards(direction))
         self._renderer = _colour_renderer(library)(width, height)
         self._renderer.render(self._scene, library.RenderFlags.OFFSCREEN)
 
-    def paint(self, positions: Floats, normals: Floats) -> NDArray[np.uint8]:
-        """The picture of these vertices, ``(height, width, 3)`` sRGB."""
-        new = np.column_stack([positions, normals])
+    def paint(self, positions: Floats, light: Floats) -> NDArray[np.uint8]:
+        """The picture of vertices that send this light, ``(height, width, 3)`` sRGB."""
+        new = np.column_stack([positions, light])
         changed = (self._vertices[:-4, :6] != new).any(axis=1)
         rows = self._faces[:-2][changed[self._faces[:-2]].any(axis=1)].ravel()
         box = self._box(np.concatenate([self._vertices[rows, _POSITION], positions[rows]])) if len(rows) else (0, 0, 0, 0)
@@ -83,19 +81,10 @@ def _wall(camera: Camera, aspect: float) -> Floats:
     """Four corners just in front of the far plane that fill the picture, lighter at the top."""
     inverse = np.linalg.inv(camera.projection(aspect))
     corners = np.array([[-1, -1, 0.9999, 1], [1, -1, 0.9999, 1], [1, 1, 0.9999, 1], [-1, 1, 0.9999, 1]]) @ inverse.T
-    wall = np.zeros((4, 12), np.float32)
+    wall = np.ones((4, 7), np.float32)
     wall[:, _POSITION] = corners[:, :3] / corners[:, 3:]
-    wall[:2, 8:11], wall[2:, 8:11] = BACKGROUND_BOTTOM, BACKGROUND_TOP
+    wall[:2, _LIGHT], wall[2:, _LIGHT] = BACKGROUND_BOTTOM, BACKGROUND_TOP
     return wall
-
-
-def _towards(direction: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A pose whose +z is *direction*: pyrender's lights shine along their own -z."""
-    side = np.cross([0.0, 1.0, 0.0], direction)
-    side /= np.linalg.norm(side)
-    pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2] = side, np.cross(direction, side), direction
-    return pose
 
 
 def _colour_renderer(library: Any) -> Any:

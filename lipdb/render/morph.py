@@ -18,11 +18,17 @@ if TYPE_CHECKING:
     from lipdb.characters.mesh import Mesh
 
 Ints = NDArray[np.intp]
+STILL = 1e-3
+"""A vertex that a shape moves by less than this part of its largest movement stays: it would move by less than a tenth of a pixel."""
+
 _TOWARDS_FRONT = np.array([0, 0, 1], np.float32)
 
 
 class Morph:
-    """All parts of a mesh laid end to end: *positions* (n, 3), *faces* (m, 3), linear *colours* (n, 3), *finish* (n, 2)."""
+    """All parts of a mesh laid end to end: *positions* (n, 3), *faces* (m, 3), linear *colours* (n, 3), *finish* (n, 2).
+
+    *moving* vertices are those that any shape moves; *changing* ones may also turn their normal.
+    """
 
     def __init__(self, mesh: Mesh) -> None:
         parts = mesh.parts
@@ -54,17 +60,13 @@ class Morph:
         self._gather = csr_array((np.ones(len(rows), np.float32), (rows, columns)), shape=(len(touched), int(near.sum())))
         self._bent_faces = self.faces[near]
         self._turning = np.flatnonzero(np.isin(shared.reshape(-1), np.flatnonzero(touched)))
+        self.changing: Ints = np.union1d(self.moving, self._turning)
         self._turning_place = shared.reshape(-1)[self._turning]
         every = csr_array(
             (np.ones(corners.size, np.float32), (corners.reshape(-1), np.repeat(np.arange(len(corners)), 3))),
             shape=(int(shared.max(initial=-1)) + 1, len(corners)),
         )
         self.normals: Floats = _unit(every @ _cross(self.positions, self.faces))[shared.reshape(-1)]
-
-    @property
-    def changing(self) -> Ints:
-        """Vertices whose position or normal any shape changes."""
-        return np.union1d(self.moving, self._turning)
 
     def at(self, weights: Mapping[str, float]) -> tuple[Floats, Floats]:
         """Positions and unit normals, each ``(n, 3)``, with each shape added by its weight; unknown shapes move nothing."""
@@ -86,11 +88,16 @@ def _linear(colours: Any, size: int) -> Floats:
 
 def _shapes(parts: Any, starts: NDArray[np.int_]) -> dict[str, tuple[Ints, Floats]]:
     """Shape name to the rows it moves and by how much, over all parts."""
+    largest: dict[str, float] = {}
+    for part in parts:
+        for name, delta in part.shapes.items():
+            largest[name] = max(largest.get(name, 0.0), float(np.abs(delta).max(initial=0)))
     rows: dict[str, list[Ints]] = {}
     deltas: dict[str, list[Floats]] = {}
     for part, start in zip(parts, starts, strict=False):
         for name, delta in part.shapes.items():
-            moved = np.flatnonzero(np.abs(delta).max(axis=1) > 1e-7)
+            far = np.abs(delta).max(axis=1)
+            moved = np.flatnonzero(far > STILL * largest[name])
             rows.setdefault(name, []).append(moved + start)
             deltas.setdefault(name, []).append(np.asarray(delta, np.float32)[moved])
     return {name: (np.concatenate(rows[name]), np.concatenate(deltas[name])) for name in rows}

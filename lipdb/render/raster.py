@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipdb.render.morph import Ints, Morph
-from lipdb.render.scene import Camera, Floats, background, encode, shade
+from lipdb.render.scene import Camera, Floats, background, encode
 
 _NOTHING = np.uint64(0xFFFFFFFFFFFFFFFF)
 _DEPTHS = np.float64(0xFFFFFF00)
@@ -19,8 +19,8 @@ _DEPTHS = np.float64(0xFFFFFF00)
 class NumpyPainter:
     """Draws a mesh of *morph*; *samples* squared points a pixel are averaged."""
 
-    def __init__(self, morph: Morph, camera: Camera, width: int, height: int, samples: int = 2) -> None:
-        self._morph, self._camera, self._samples = morph, camera, samples
+    def __init__(self, morph: Morph, light: Floats, camera: Camera, width: int, height: int, samples: int = 2) -> None:
+        self._samples = samples
         self._width, self._height = width * samples, height * samples
         self._matrix = camera.projection(width / height).astype(np.float32)
         changes = np.zeros(len(morph.positions), bool)
@@ -29,13 +29,13 @@ class NumpyPainter:
         self._faces = morph.faces[moves]
         self._depth = np.full(self._width * self._height, _NOTHING)
         self._still = encode(background(self._width, self._height)).reshape(-1, 3)
-        pixels, colours, self._depth = self._draw(morph.faces[~moves], morph.positions, morph.normals)
+        pixels, colours, self._depth = self._draw(morph.faces[~moves], morph.positions, light)
         self._still[pixels] = colours
 
-    def paint(self, positions: Floats, normals: Floats) -> NDArray[np.uint8]:
-        """The picture of these vertices, ``(height, width, 3)`` sRGB."""
+    def paint(self, positions: Floats, light: Floats) -> NDArray[np.uint8]:
+        """The picture of vertices that send this light, ``(height, width, 3)`` sRGB."""
         picture = self._still.copy()
-        pixels, colours, _ = self._draw(self._faces, positions, normals)
+        pixels, colours, _ = self._draw(self._faces, positions, light)
         picture[pixels] = colours
         n = self._samples
         grid = picture.reshape(self._height // n, n, self._width // n, n, 3)
@@ -44,19 +44,18 @@ class NumpyPainter:
     def close(self) -> None:
         """Nothing to give back; every painter has it."""
 
-    def _draw(self, faces: Ints, positions: Floats, normals: Floats) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint64]]:
+    def _draw(self, faces: Ints, positions: Floats, light: Floats) -> tuple[Ints, NDArray[np.uint8], NDArray[np.uint64]]:
         """Pixels where *faces* are nearer than what is there, their colours, and the depths with them drawn."""
         pixels, face, weights, depth = self._fragments(faces, self._project(positions))
         words = (depth << np.uint64(32)) | np.arange(len(pixels), dtype=np.uint64)
         nearest = self._depth.copy()
         np.minimum.at(nearest, pixels, words)
         seen = np.flatnonzero(nearest[pixels] == words)
-        corners, share = faces[face[seen]], weights[seen]
-        colours, finish = _mix(self._morph.colours, corners, share), _mix(self._morph.finish, corners, share)
-        bytes_ = shade(colours, _mix(normals, corners, share), _mix(positions, corners, share), finish, self._camera)
+        corners, share = light[faces[face[seen]]], weights[seen]
         # A fragment's number means nothing to the next drawing: keep the depth, and let equal depths stay.
         nearest[pixels[seen]] &= np.uint64(0xFFFFFFFF00000000)
-        return pixels[seen], bytes_, nearest
+        # Mixed affinely: with a long lens the error is far below a shade.
+        return pixels[seen], encode(np.einsum("kc,kcd->kd", share, corners)), nearest
 
     def _project(self, positions: Floats) -> Floats:
         """Pixel x, pixel y (downwards) and depth 0..1, shape ``(n, 3)``."""
@@ -100,9 +99,3 @@ def _edge(p: Floats, q: Floats, area: Floats, owner: Ints, x: Floats, y: Floats)
     slope_x, slope_y = (p[:, 1] - q[:, 1]) / area, (q[:, 0] - p[:, 0]) / area
     away: Floats = slope_x[owner] * (x - p[owner, 0]) + slope_y[owner] * (y - p[owner, 1])
     return away
-
-
-def _mix(values: Floats, corners: Ints, share: Floats) -> Floats:
-    """*values* of three corners each, mixed by their shares: affine, since with a long lens the error is far below a shade."""
-    mixed: Floats = np.einsum("kc,kcd->kd", share, values[corners])
-    return mixed

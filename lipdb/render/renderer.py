@@ -14,7 +14,7 @@ from lipdb.render.gl import backend
 from lipdb.render.gl_painter import GLPainter
 from lipdb.render.morph import Morph
 from lipdb.render.raster import NumpyPainter
-from lipdb.render.scene import Floats, camera_for
+from lipdb.render.scene import Floats, camera_for, shade
 
 if TYPE_CHECKING:
     from lipdb.characters.mesh import Mesh
@@ -25,8 +25,8 @@ LARGEST = 4096
 class Painter(Protocol):
     """What turns vertices into pictures."""
 
-    def paint(self, positions: Floats, normals: Floats) -> NDArray[np.uint8]:
-        """The picture of these vertices, ``(height, width, 3)`` sRGB."""
+    def paint(self, positions: Floats, light: Floats) -> NDArray[np.uint8]:
+        """The picture of vertices that send this light, ``(height, width, 3)`` sRGB."""
         ...
 
     def close(self) -> None:
@@ -49,13 +49,18 @@ class Renderer:
         if not any(len(part.faces) for part in mesh.parts):
             raise MeshError(f"mesh {mesh.name!r} has no triangles to draw; export it with its faces")
         self._morph = Morph(mesh)
-        camera = camera_for(self._morph.positions, self._morph.moving, view=view, aspect=width / height)
+        self._camera = camera_for(self._morph.positions, self._morph.moving, view=view, aspect=width / height)
+        self._light = shade(self._morph.colours, self._morph.normals, self._morph.positions, self._morph.finish, self._camera)
         kind = NumpyPainter if (painter or backend()) == "numpy" else GLPainter
-        self._painter: Painter = kind(self._morph, camera, width, height)
+        self._painter: Painter = kind(self._morph, self._light, self._camera, width, height)
 
     def draw(self, weights: Mapping[str, float]) -> NDArray[np.uint8]:
         """The picture with each shape at its weight, ``(height, width, 3)`` sRGB; shapes the mesh lacks move nothing."""
-        return self._painter.paint(*self._morph.at(weights))
+        morph, rows = self._morph, self._morph.changing
+        positions, normals = morph.at(weights)
+        light = self._light.copy()
+        light[rows] = shade(morph.colours[rows], normals[rows], positions[rows], morph.finish[rows], self._camera)
+        return self._painter.paint(positions, light)
 
     def close(self) -> None:
         """Give back what the painter holds."""

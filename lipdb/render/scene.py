@@ -1,6 +1,7 @@
 """Where the camera stands, where the light comes from and how a surface answers it: one account for every painter.
 
-The OpenGL painter's shader (`shaders/mesh.frag`) holds the same numbers as `shade`; a test draws both and compares.
+Vertices are lit here, in numpy, and painters spread that light over triangles: with meshes fine enough to speak, pixel by
+pixel looks the same and costs twice as much.
 """
 
 from __future__ import annotations
@@ -97,34 +98,34 @@ def _colour(triple: tuple[float, float, float]) -> Floats:
     return np.array(triple, np.float32)
 
 
-def shade(colours: Floats, normals: Floats, points: Floats, finish: Floats, camera: Camera) -> NDArray[np.uint8]:
-    """What the camera sees at surface *points*: sRGB bytes of shape ``(n, 3)``.
+def shade(colours: Floats, normals: Floats, points: Floats, finish: Floats, camera: Camera) -> Floats:
+    """The light that surface *points* send to the camera: linear, shape ``(n, 3)``.
 
-    *colours* are linear ``(n, 3)``, *normals* ``(n, 3)`` of any length but zero, *points* ``(n, 3)``; *finish* ``(n, 2)`` is how rough and
+    *colours* are linear ``(n, 3)``, *normals* ``(n, 3)`` of length one, *points* ``(n, 3)``; *finish* ``(n, 2)`` is how rough and
     how specular.
     Light bleeds round rough surfaces (wrapped diffuse); the highlight is a Blinn-Phong lobe (as a spherical
     Gaussian) with Schlick's Fresnel term; sky and ground light the rest.
     """
     roughness, specular = finish[:, 0], finish[:, 1]
-    normal = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     to_eye = camera.eye.astype(np.float32) - points
     to_eye /= np.linalg.norm(to_eye, axis=1, keepdims=True)
-    facing = np.maximum(np.einsum("ij,ij->i", normal, to_eye), 0)
+    facing = np.maximum(np.einsum("ij,ij->i", normals, to_eye), 0)
     wrap = _colour(SCATTER) * np.clip(roughness * 2 - 0.5, 0, 1)[:, None]
-    sky = (normal[:, 1:2] + 1) / 2
+    sky = (normals[:, 1:2] + 1) / 2
     light = _colour(GROUND) + (_colour(SKY) - _colour(GROUND)) * sky
     shine = (0.14 * specular * (1 - facing) ** 4)[:, None] * np.ones(3, np.float32)
     exponent = 2 / (roughness**4 + 2e-3)
     strength = (exponent + 8) / 25.13 * 1.7 * specular
     for direction, (_, colour) in zip(light_directions(camera).astype(np.float32), LIGHTS, strict=True):
-        incidence = normal @ direction
+        incidence = normals @ direction
         light += _colour(colour) * np.maximum((incidence[:, None] + wrap) / (1 + wrap) ** 2, 0)
         half = direction + to_eye
         half /= np.linalg.norm(half, axis=1, keepdims=True)
         fresnel = 0.04 + 0.96 * (1 - half @ direction).clip(0) ** 5
-        lobe = np.exp2(exponent * 1.442695 * (np.maximum(np.einsum("ij,ij->i", normal, half), 0) - 1))
+        lobe = np.exp2(exponent * 1.442695 * (np.maximum(np.einsum("ij,ij->i", normals, half), 0) - 1))
         shine += _colour(colour) * (fresnel * strength * lobe * np.clip(incidence * 4, 0, 1))[:, None]
-    return encode(colours * light + shine)
+    seen: Floats = colours * light + shine
+    return seen
 
 
 def encode(linear: Floats) -> NDArray[np.uint8]:
