@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
 
 BUILT = "built:"
-MESH_FILE, OBJECTS, PICTURES = "mesh.glb", "objects", "pictures"
+MESH_FILE, PICTURES = "mesh.glb", "pictures"
 PICTURE_SUFFIXES = (".svg", ".png")
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
@@ -32,7 +32,7 @@ class Character:
 
     *links* lead from the poses of *pose_set* to the character's own shapes; *closures* are the shapes that close its
     mouth. *drawing* says what there is to draw: ``built:robin``, ``built:crab`` and ``built:flat`` come with lipdb;
-    ``mesh.glb``, ``objects`` (OBJ files) and ``pictures`` are kept in *folder*.
+    ``mesh.glb`` and ``pictures`` are kept in *folder*.
     """
 
     name: str
@@ -77,10 +77,6 @@ class Character:
             from lipdb.characters.gltf_read import read_glb
 
             return read_glb(self._own(MESH_FILE), name=self.name)
-        if self.drawing == OBJECTS:
-            from lipdb.characters.obj_read import read_objects
-
-            return read_objects(self._own(OBJECTS), name=self.name)
         return None
 
     @cached_property

@@ -74,7 +74,7 @@ def glb_bytes(mesh: Mesh, *, animation: Track | None = None) -> bytes:
     """
     buffer, names = _Buffer(), mesh.shape_names
     primitives = [_primitive(buffer, part, index, names) for index, part in enumerate(mesh.parts)]
-    face = {"name": mesh.name, "primitives": primitives}
+    face: dict[str, Any] = {"name": mesh.name, "primitives": primitives}
     if names:
         face |= {"weights": [0.0] * len(names), "extras": {"targetNames": list(names)}}
     content: dict[str, Any] = {

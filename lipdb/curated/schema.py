@@ -151,6 +151,12 @@ TABLES: tuple[Table, ...] = (
         ),
         ("pose",),
     ),
+    # What other programs call a pose of a set: shapes of meshes are matched by these names too.
+    Table(
+        "shape_names.tsv",
+        _columns("pose_set name pose " + _SOURCED, pose_set=_name, name=_name, pose=_name, source=_name),
+        ("pose_set", "name", "pose"),
+    ),
     Table(
         "poses/sets.tsv",
         _columns("pose_set window threshold title " + _SOURCED, pose_set=_name, window=_number, threshold=_number, source=_name),
@@ -202,8 +208,8 @@ TABLES: tuple[Table, ...] = (
     # How words are read where the language's own reader can't know: pinyin with tone numbers for Mandarin.
     Table("{language}/readings.tsv", _columns("word reading " + _SOURCED, word=_name, source=_name), ("word",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
-    # A character. *drawing* is `built:NAME` for the shipped ones, else `mesh.glb`, `objects` or `pictures`: what stands in
-    # the character's folder. *shapes* names the set whose shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to
+    # A character. *drawing* is `built:NAME` for the shipped ones, else `mesh.glb` or `pictures`: what stands in the
+    # character's folder. *shapes* names the set whose shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to
     # one when that is the pose set itself), and the character's own links.tsv comes on top.
     Table(
         "characters/{character}/character.tsv",

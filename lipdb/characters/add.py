@@ -1,0 +1,160 @@
+"""Make a character of somebody's files: copy them into the workspace and propose its rows."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lipdb.characters.character import MESH_FILE, NAME, PICTURE_SUFFIXES, PICTURES, picture_files
+from lipdb.characters.gltf_read import read_glb
+from lipdb.characters.gltf_write import write_glb
+from lipdb.characters.match import SHARED, Match, match
+from lipdb.characters.obj_read import read_objects
+from lipdb.errors import InputError, MeshError, OutputError
+
+if TYPE_CHECKING:
+    from lipdb.curated.tsv import Records, Row
+
+BINARY = (".glb", ".vrm")
+PICTURE_NAME = re.compile(r"\w[\w-]{0,59}")
+SOURCE = "user"
+
+
+@dataclass(frozen=True, slots=True)
+class Added:
+    """A character whose files are in place: its rows, still to be saved, and how its shapes were told."""
+
+    name: str
+    character: Row
+    links: tuple[Row, ...]
+    match: Match
+
+    @property
+    def shape_set(self) -> str:
+        """The known set that its shapes look like."""
+        return self.match.shape_set
+
+    @property
+    def tables(self) -> dict[str, tuple[Row, ...]]:
+        """The rows to save, by the path of their table."""
+        return {f"characters/{self.name}/character.tsv": (self.character,), f"characters/{self.name}/links.tsv": self.links}
+
+    def rows(self) -> list[dict[str, str]]:
+        """Every link with its certainty; a missing shape stands as a link to nothing. For listings."""
+        return [
+            {"pose": p.pose, "shape": p.shape or f"({p.known})", "gain": p.gain, "certainty": p.certainty, "comment": p.comment}
+            for p in sorted(self.match.proposals, key=lambda p: (p.pose, p.certainty == "missing", p.shape, p.known))
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "character": self.name,
+            "shape_set": self.shape_set,
+            "share": round(self.match.share, 3),
+            "doubtful": list(self.match.doubtful),
+            "missing": list(self.match.missing),
+            "links": self.rows(),
+        }
+
+
+def add_character(path: Path, *, name: str, title: str = "", records: Records, folder: Path) -> Added:
+    """Copy the face at *path* into *folder*/*name* and propose its rows; saving them is the caller's.
+
+    *path* is a .glb, .vrm or .gltf file, a folder of OBJ files (one a shape, one of them called neutral), or a folder of
+    SVG or PNG pictures named after their shapes. Files get names of ours, never their own. Raises `InputError` for a
+    name that can't be or is taken, or shapes that no known set has, `MeshError` for broken files, `OutputError` when
+    *folder* can't be written; nothing is left behind then.
+    """
+    if not NAME.fullmatch(name):
+        raise InputError(f"character name {name!r}: use small letters, digits and _, beginning with a letter")
+    if f"characters/{name}/character.tsv" in records:
+        raise InputError(f"there is a character {name!r} already; choose another name")
+    with _Workspace(folder, name) as work:
+        drawing, shapes = _copy(path, work.place, name)
+        matched = match(shapes, records)
+        work.keep()
+    character = {"character": name, "pose_set": SHARED, "shapes": "", "drawing": drawing, "title": title or name, "source": SOURCE}
+    return Added(name, {**character, "comment": f"Shapes matched by name to {matched.shape_set}"}, _link_rows(matched), matched)
+
+
+def _link_rows(matched: Match) -> tuple[Row, ...]:
+    rows = []
+    for p in matched.proposals:
+        if p.certainty == "missing":
+            continue
+        comment = f"{p.known}: doubtful" if p.certainty == "doubtful" else p.comment
+        row = {"pose": p.pose, "shape": p.shape, "gain": p.gain, "combine": p.combine, "curve": p.curve, "source": SOURCE}
+        rows.append({**row, "comment": comment})
+    return tuple(rows)
+
+
+class _Workspace:
+    """A new folder that takes the character's name only if all went well."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.final = folder / name
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self.place = Path(tempfile.mkdtemp(prefix=".lipdb-", dir=folder))
+        except OSError as error:
+            raise OutputError(f"{folder}: can't be written ({error.strerror}); choose another place for the database") from error
+
+    def __enter__(self) -> _Workspace:
+        return self
+
+    def keep(self) -> None:
+        """Take the place of what an earlier, unsaved attempt left."""
+        try:
+            if self.final.exists():
+                shutil.rmtree(self.final)
+            self.place.chmod(0o755)
+            self.place.replace(self.final)
+        except OSError as error:
+            raise OutputError(f"{self.final}: can't be written ({error.strerror}); free some space or choose another place") from error
+
+    def __exit__(self, *_: object) -> None:
+        shutil.rmtree(self.place, ignore_errors=True)
+
+
+def _copy(path: Path, place: Path, name: str) -> tuple[str, tuple[str, ...]]:
+    """Copy what is at *path* to *place*; the drawing's kind and the names of the shapes."""
+    if path.is_file() and path.suffix.lower() in (*BINARY, ".gltf"):
+        mesh = read_glb(path, name=name)
+        if path.suffix.lower() in BINARY:
+            _copy_file(path, place / MESH_FILE)
+        else:
+            write_glb(place / MESH_FILE, mesh)
+        return MESH_FILE, mesh.shape_names
+    if path.is_dir() and any(file.suffix.lower() == ".obj" for file in path.iterdir()):
+        mesh = read_objects(path, name=name)
+        write_glb(place / MESH_FILE, mesh)
+        return MESH_FILE, mesh.shape_names
+    if path.is_dir():
+        return PICTURES, _copy_pictures(picture_files(path), place / PICTURES)
+    raise InputError(f"{path}: give a .glb, .vrm or .gltf file, a folder of OBJ files, or a folder of SVG or PNG pictures")
+
+
+def _copy_pictures(files: Mapping[str, Path], place: Path) -> tuple[str, ...]:
+    from lipdb.render.flat import read_picture
+
+    place.mkdir()
+    for shape, file in files.items():
+        if not PICTURE_NAME.fullmatch(shape):
+            raise MeshError(f"{file}: name pictures after their shapes with letters, digits, _ and -")
+        read_picture(file, 64, 64)
+        suffix = next(kind for kind in PICTURE_SUFFIXES if kind == file.suffix.lower())
+        _copy_file(file, place / f"{shape}{suffix}")
+    return tuple(files)
+
+
+def _copy_file(source: Path, target: Path) -> None:
+    try:
+        shutil.copyfile(source, target)
+    except OSError as error:
+        raise OutputError(f"{target}: can't be written ({error.strerror}); free some space or choose another place") from error
