@@ -129,14 +129,13 @@ def _missing(records: Records, names: Names) -> Iterator[Finding]:
                 yield Finding(path, 1, 1, f"language {language!r} is not complete without this table")
     for path in records:
         table = table_of(path)
-        if table and table.pattern == "poses/{pose_set}.tsv" and (name := path[6:-4]) not in names.sets:
-            yield Finding(path, 1, 1, f"pose set {name!r} has no row in poses/sets.tsv")
+        if table and table.pattern == "poses/{pose_set}.tsv":
+            yield from _twice(records, path, "position", "position")
+            if (name := path[6:-4]) not in names.sets:
+                yield Finding(path, 1, 1, f"pose set {name!r} has no row in poses/sets.tsv")
         if path.startswith("characters/") and not records.get("/".join([*path.split("/")[:2], "character.tsv"])):
             yield Finding(path, 1, 1, "this character has no character.tsv")
     yield from _twice(records, "ipa.tsv", "xsampa", "X-SAMPA")
-    for path in records:
-        if path.startswith("poses/") and path != "poses/sets.tsv":
-            yield from _twice(records, path, "position", "position")
 
 
 def _twice(records: Records, path: str, column: str, what: str) -> Iterator[Finding]:
