@@ -63,6 +63,13 @@ def test_an_error_inside_the_block_saves_nothing(store):
     assert store.revision == 1
 
 
+def test_bytes_that_are_no_text_do_no_harm_in_a_note(store):
+    with store.edit(author="anna\udcff", note="a\udcffb\nc") as edit:
+        edit.put(CURVES, curve())
+    newest = store.history(limit=1)[0]
+    assert (newest.author, newest.note) == ("anna?", "a?b c")
+
+
 def test_an_edit_needs_an_author(store):
     with pytest.raises(InputError, match="no author"), store.edit(author="  "):
         pass

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from lipdb.curated.tsv import Key, Records, Row
+from lipdb.store.provenance import PROVENANCE
 
 Place = tuple[str, Key]
 """Where a fact is: the path of its table and its key."""
@@ -75,8 +76,9 @@ def nested(rows: Flat) -> dict[str, dict[Key, Row]]:
 
 
 def differing(row: Row | None, other: Row | None) -> str:
-    """The cells of *row* that *other* has not, for a person to read."""
+    """The cells of *row* that *other* has otherwise, for a person to read; who and when only if nothing else differs."""
     if row is None:
         return "not there"
     names = [name for name in row if other is None or row[name] != other.get(name)]
+    names = [name for name in names if name not in PROVENANCE] or names
     return ", ".join(f"{name} {row[name]}" if row[name] else f"no {name}" for name in names)

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 import sqlalchemy as sa
 
@@ -24,28 +23,13 @@ from lipdb.store.edit import Edit
 from lipdb.store.engines import database_url, description, has_content, is_file, make_engine, place_of, reading, writing
 from lipdb.store.failures import plain_errors
 from lipdb.store.history import Change, Revision, difference, read_changes, read_revisions, require_revision, state_at
-from lipdb.store.merge import Merge
 from lipdb.store.migrate import require_current, schema_of
 from lipdb.store.revisions import Present, newest_revision, present_rows
 from lipdb.store.setup import create, upgrade_tables
-from lipdb.store.shipped import merge_shipped, merged_digest, text_digest
+from lipdb.store.shipped import Upgrade, merge_shipped, merged_digest, text_digest
 from lipdb.store.tables import SCHEMA, change, record
 from lipdb.store.text import Loaded, dump_text, load_text
 from lipdb.store.undo import undo
-
-
-@dataclass(frozen=True, slots=True)
-class Upgrade:
-    """What `Store.upgrade` did: the schema before and after, the merge, and the revision when rows followed."""
-
-    schema_before: str
-    schema: str
-    revision: int | None
-    merge: Merge
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data for a listing."""
-        return {"schema_before": self.schema_before, "schema": self.schema, "revision": self.revision, **self.merge.to_json()}
 
 
 def _now() -> str:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, islice
 from operator import itemgetter
+from typing import Any
 
 import sqlalchemy as sa
 
@@ -34,9 +35,14 @@ class Changed:
     after: Row | None
 
 
+def one_line(text: str) -> str:
+    """*text* on one line, without bytes that are no text (as a terminal may pass them on)."""
+    return " ".join(text.encode(errors="replace").decode().split())
+
+
 def author_name(author: str) -> str:
     """*author* on one line. Raises `InputError` when nothing is left: every change names who made it."""
-    name = " ".join(author.split())
+    name = one_line(author)
     if not name:
         raise InputError("edit: there is no author; every change names who made it")
     return name
@@ -45,42 +51,36 @@ def author_name(author: str) -> str:
 def write(connection: sa.Connection, changes: Sequence[Changed], *, author: str, time: str, note: str) -> int:
     """Make one revision of *changes* and apply them to the records; its number."""
     number = newest_revision(connection) + 1
-    signature = {"author": author_name(author), "time": time, "note": " ".join(note.split())}
+    signature = {"author": author_name(author), "time": time, "note": one_line(note)}
     connection.execute(sa.insert(revision), {"id": number, **signature})
-    texts = [_texts(changed) for changed in changes]
-    connection.execute(sa.insert(change), [{"revision_id": number, **text} for text in texts])
-    _apply(connection, sa.delete(record).where(*_named()), [t for t in texts if t["after"] is None], number)
-    _apply(
-        connection,
-        sa.update(record).where(*_named()).values(cells=sa.bindparam("_after"), revision=sa.bindparam("_number")),
-        [t for t in texts if t["before"] is not None and t["after"] is not None],
-        number,
-    )
-    new = [t for t in texts if t["before"] is None]
-    if new:
-        connection.execute(sa.insert(record), [{"path": t["path"], "key": t["key"], "cells": t["after"], "revision": number} for t in new])
+    log = [
+        {"revision_id": number, "path": one.place[0], "key": key_text(one.place[1]), "before": _text(one.before), "after": _text(one.after)}
+        for one in changes
+    ]
+    connection.execute(sa.insert(change), log)
+    _apply(connection, log)
     return number
 
 
-def _texts(changed: Changed) -> dict[str, str | None]:
-    (path, key), before, after = changed.place, changed.before, changed.after
-    return {
-        "path": path,
-        "key": key_text(key),
-        "before": None if before is None else cells_text(before),
-        "after": None if after is None else cells_text(after),
-    }
+def _text(row: Row | None) -> str | None:
+    return None if row is None else cells_text(row)
 
 
-def _named() -> tuple[sa.ColumnElement[bool], ...]:
-    return record.c.path == sa.bindparam("_path"), record.c.key == sa.bindparam("_key")
-
-
-def _apply(connection: sa.Connection, statement: sa.Update | sa.Delete, texts: Sequence[Mapping[str, str | None]], number: int) -> None:
-    if texts:
-        names = statement.compile().params
-        every = [{"_path": t["path"], "_key": t["key"], "_after": t["after"], "_number": number} for t in texts]
-        connection.execute(statement, [{name: values[name] for name in names} for values in every])
+def _apply(connection: sa.Connection, log: Sequence[Mapping[str, Any]]) -> None:
+    """Do to the records what *log*, rows of `change`, says."""
+    named = record.c.path == sa.bindparam("_path"), record.c.key == sa.bindparam("_key")
+    gone, kept, new = [], [], []
+    for one in log:
+        now = {"cells": one["after"], "revision": one["revision_id"]}
+        if one["after"] is None:
+            gone.append({"_path": one["path"], "_key": one["key"]})
+        elif one["before"] is None:
+            new.append({"path": one["path"], "key": one["key"], **now})
+        else:
+            kept.append({"_path": one["path"], "_key": one["key"], **now})
+    for statement, rows in ((sa.delete(record).where(*named), gone), (sa.update(record).where(*named), kept), (sa.insert(record), new)):
+        if rows:
+            connection.execute(statement, rows)
 
 
 def newest_revision(connection: sa.Connection) -> int:

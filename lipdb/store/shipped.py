@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import sqlalchemy as sa
 
@@ -17,6 +19,20 @@ PROGRAM = "lipdb"
 """The author of revisions that bring shipped text."""
 
 _DIGEST = "shipped text"
+
+
+@dataclass(frozen=True, slots=True)
+class Upgrade:
+    """What `Store.upgrade` did: the schema before and after, the merge, and the revision when rows followed."""
+
+    schema_before: str
+    schema: str
+    revision: int | None
+    merge: Merge
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for a listing."""
+        return {"schema_before": self.schema_before, "schema": self.schema, "revision": self.revision, **self.merge.to_json()}
 
 
 def text_digest(folder: Path) -> str:
