@@ -124,6 +124,8 @@ def animate_lines(
     """
     if table.poses != pose_set.poses:
         raise CurveError(f"the table of curves is for poses {', '.join(table.poses)}, not for those of pose set {pose_set.name!r}")
+    if not len(lines):
+        return Tracks(np.zeros((len(pose_set.poses), 0)), np.zeros(0, np.int64), np.zeros(0, np.int64), pose_set.poses, fps)
     slowest = float(pose_set.speed.min())
     timeline = lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest)
     player = Player(table, pose_set, timeline)

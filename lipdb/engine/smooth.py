@@ -10,6 +10,8 @@ from lipdb.engine.table import Bools, Floats, Ints
 def moves(weights: Floats) -> tuple[Ints, Ints, Bools]:
     """The stretches over which *weights* ``(P, T)`` rise or fall: first and last point (flat indices), and whether up."""
     flat = weights.reshape(-1)
+    if len(flat) < 2:
+        return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, bool)
     way = (flat[1:] > flat[:-1]).view(np.int8) - (flat[1:] < flat[:-1]).view(np.int8)
     turns = np.flatnonzero(way[1:] != way[:-1]) + 1
     edges = np.concatenate(([0], turns, [len(way)]))

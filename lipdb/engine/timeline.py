@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import chain
+from operator import index
 
 import numpy as np
 
@@ -149,7 +150,7 @@ def _flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints, I
         phone = np.fromiter(map(table.number.__getitem__, chain.from_iterable(phones for _, phones in lines)), np.int64, int(sizes.sum()))
     except KeyError as error:
         raise CurveError(f"the table of curves has no phone {error.args[0]!r}; build it with every phone of the schedule") from None
-    edges = np.fromiter(chain.from_iterable(edges for edges, _ in lines), np.int64, int(spans.sum()))
+    edges = _whole([edges for edges, _ in lines], int(spans.sum()))
     line = np.repeat(np.arange(len(lines)), sizes)
     at = np.arange(len(phone)) + line
     start, end = edges[at], edges[at + 1]
@@ -159,6 +160,16 @@ def _flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints, I
             f"line {line[bad]}: a phone lasts from {start[bad]} to {end[bad]} µs; every phone must last a microsecond or more"
         )
     return line, phone, start, end
+
+
+def _whole(parts: list[Sequence[int]], size: int) -> Ints:
+    """All *parts* in one array. Raises `ScheduleError` for anything but whole numbers."""
+    try:
+        if parts and isinstance(parts[0], np.ndarray):
+            return np.concatenate(parts).astype(np.int64, casting="safe")
+        return np.fromiter(map(index, chain.from_iterable(parts)), np.int64, size)
+    except TypeError:
+        raise ScheduleError("edges must be whole microseconds; round(seconds * 1_000_000) gives them") from None
 
 
 def _merged(line: Ints, phone: Ints, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints, Ints]:
@@ -201,6 +212,8 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
     line, phone, start, end = _rested(*_merged(*_flat(table, lines)))
     last = np.append(np.flatnonzero(line[1:] != line[:-1]), len(line) - 1)
     asked = np.maximum(_up(end[last] * rate.microsecond, rate.frame) + 1, 0) if frames is None else np.asarray(frames, dtype=np.int64)
+    if (asked < 0).any() or len(asked) != len(lines):
+        raise ScheduleError(f"{asked.min(initial=0)} frames asked for in {len(asked)} of {len(lines)} lines; ask for 0 or more in each")
     left = np.flatnonzero(line[1:] == line[:-1])
     length = np.where(phone == 0, np.minimum(end - start, REST), end - start) * rate.microsecond
     border, of_line = end[left] * rate.microsecond, line[left]
@@ -233,13 +246,21 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
         run=run,
         cell=cell,
         frame=frame,
-        first_frame=frame + low_frame - anchor,
+        first_frame=frame + _shares(low_frame, high_frame, of_line[at]) - anchor,
         low=cell + low,
         high=cell + high,
         origin=origin,
         frames=asked,
         axis=int(sizes.sum()),
     )
+
+
+def _shares(begin: Ints, end: Ints, line: Ints) -> Ints:
+    """The first frame of each run: where its line begins, or halfway through the rest after the run before."""
+    first = begin.copy()
+    inner = np.flatnonzero(line[1:] == line[:-1]) + 1
+    first[inner] = (end[inner - 1] + begin[inner]) // 2
+    return first
 
 
 def _up(units: Ints, step: int) -> Ints:
