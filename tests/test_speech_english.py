@@ -72,6 +72,13 @@ def test_a_comma_gives_a_pause_of_silence():
     assert schedule.edges[pauses[1] + 1] - schedule.edges[pauses[1]] > 60_000
 
 
+def test_a_full_stop_is_one_in_front_of_a_small_letter_too():
+    schedule = VOICE.speak("i have a dog. it is nice").schedule
+    assert schedule.words[3:5] == ("dog", "it")
+    assert sum(phone.silent for phone in schedule.phones) == 3
+    assert sum(phone.silent for phone in VOICE.speak("cats etc. are nice").schedule.phones) == 2
+
+
 def test_a_p_between_vowels_is_silent_from_its_start():
     spoken = VOICE.speak("A happy baby.")
     schedule = spoken.schedule

@@ -158,7 +158,15 @@ def test_a_reading_of_the_table_wins_over_english():
 
 def test_punctuation_gives_a_pause_and_quotes_do_not():
     assert _symbols("你，好").count("_") == 3
+    assert _symbols("你。好！好；好").count("_") == 5
     assert _symbols("你“好”").count("_") == 2
+
+
+def test_a_text_without_punctuation_breathes_and_no_syllable_is_lost():
+    schedule = VOICE.speak("你好中国" * 100).schedule
+    assert len(schedule.words) == 400
+    assert {phone.word for phone in schedule.phones} == set(range(-1, 400))
+    assert sum(phone.silent for phone in schedule.phones) == 2 + 400 // 60
 
 
 def test_phones_without_sound_are_those_that_are_spoken():

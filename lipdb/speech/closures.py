@@ -43,11 +43,10 @@ def restore_closures(
 def _quiet_starts(times: NDArray[np.float64], samples: NDArray[np.int16], rate: int) -> NDArray[np.float64]:
     """For each time, where the quiet stretch that ends there starts; the time itself if there is none."""
     size = max(1, int(rate * BLOCK))
-    level = np.abs(samples.astype(np.int32))
-    level = np.pad(level, (0, -len(level) % size)).reshape(-1, size).max(axis=1)
+    blocked = np.pad(samples, (0, -len(samples) % size)).reshape(-1, size)
+    level = np.maximum(blocked.max(axis=1), -blocked.min(axis=1).astype(np.int32))
     quiet = level < QUIET * level.max()
-    blocks = np.arange(len(quiet))
-    run_start = np.maximum.accumulate(np.where(quiet, 0, blocks + 1))
+    run_start = np.maximum.accumulate(np.where(quiet, 0, np.arange(len(quiet)) + 1))
     # A mark can sit up to 12 ms behind its burst: look that far back for the end of the quiet.
     back = np.arange(1, LATE_MARK + 2)
     candidates = (times * rate / size).astype(int)[:, None] - back

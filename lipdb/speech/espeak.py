@@ -38,7 +38,10 @@ STRESS = {"ˈ": 1, "ˌ": 2}
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
 _PHONEMIZING = threading.Lock()
 SWITCH = re.compile(r"\([a-z-]+\)")
-EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?…–—-]+$")
+# In front of a small letter espeak takes a full stop for an abbreviation and makes no pause; people write so, too.
+FULL_STOP = "。"
+SENTENCE_END = re.compile(r"(?<=[^\W\d_]{3})(?<!\betc)(?<!\best)(?<!\binc)(?<!\bltd)(?<!\bdept)(?<!approx)\.(?=[\"'”’)]? [a-zß-ÿ])")
+EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。…–—-]+$")
 
 
 def espeak_voice(records: Records, language: str) -> EspeakVoice:
@@ -88,9 +91,9 @@ class EspeakVoice:
         return tuple(tuple(self._phone(label, 0).symbol for label in word) for word in words)
 
     def _checked(self, text: str) -> tuple[str, tuple[str, ...]]:
-        cleaned = clean(text)
-        check_script(cleaned.text, self.script, language=self.language)
-        return cleaned
+        cleaned, notes = clean(text)
+        check_script(cleaned, self.script, language=self.language)
+        return SENTENCE_END.sub(FULL_STOP, cleaned), notes
 
     def _phone(self, label: str, word: int) -> Phone:
         stress = next((level for mark, level in STRESS.items() if mark in label), 0)

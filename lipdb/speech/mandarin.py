@@ -23,7 +23,7 @@ from lipdb.phones.mapping import bracketed
 from lipdb.phones.syllables import Syllables
 from lipdb.schedule import SILENCE, Phone
 from lipdb.speech import libespeak
-from lipdb.speech.espeak import SETTINGS, language_row, mended_edges, phonemize, undoubled, without_short_pauses
+from lipdb.speech.espeak import FULL_STOP, SETTINGS, language_row, mended_edges, phonemize, undoubled, without_short_pauses
 from lipdb.speech.libespeak import Mark
 from lipdb.speech.pinyin import NEUTRAL, Foreign, Pause, PinyinReader, Syllable, Token, has_characters
 from lipdb.speech.text import check_script, clean
@@ -41,6 +41,8 @@ PHONEMES = {
     "qiong": "tS;hj'ong{}", "xiong": "S;j'ong{}", "ê": "'E{}",
 }  # fmt: skip
 RHOTIC = "[[r]]"
+# Syllables. espeak cuts a clause of 800 characters anywhere, even within a syllable.
+LONGEST_BREATH = 60
 # As a word by itself this letter would be read as an article.
 LETTERS = {"A": "eh", "a": "eh"}
 INITIAL_SHARE = 0.35
@@ -139,11 +141,15 @@ class PinyinVoice:
 
 def respell(tokens: Iterable[Token], legal: Container[str]) -> tuple[str, list[int]]:
     """What espeak is given for *tokens*, and the character at which each spoken one starts."""
-    text, starts = "", list[int]()
+    text, starts, breath = "", list[int](), 0
     for token in tokens:
         if isinstance(token, Pause):
-            text = f"{text.rstrip()}{token.mark} " if starts else text
+            text = f"{text.rstrip()}{FULL_STOP if token.mark == '.' else token.mark} " if starts else text
+            breath = 0
             continue
+        breath += 1
+        if breath > LONGEST_BREATH:
+            text, breath = f"{text.rstrip()}, ", 1
         starts.append(len(text))
         text += f"{_respell_syllable(token, legal) if isinstance(token, Syllable) else LETTERS.get(token.written, token.written)} "
     return text.rstrip(), starts
