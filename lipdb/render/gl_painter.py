@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from lipdb.render.gl import on_gl_thread, pyrender
 from lipdb.render.morph import Morph
-from lipdb.render.scene import BACKGROUND_BOTTOM, BACKGROUND_TOP, FIELD_OF_VIEW, Camera, Floats
+from lipdb.render.scene import BACKGROUND_BOTTOM, BACKGROUND_TOP, FIELD_OF_VIEW, Camera, Floats, to_screen
 
 SHADERS = Path(__file__).parent / "shaders"
 _POSITION, _LIGHT = slice(0, 3), slice(3, 6)
@@ -25,7 +25,7 @@ class GLPainter:
         self._vertices = np.concatenate([mesh, _wall(camera, width / height)]).astype(np.float32)
         corner = len(morph.positions)
         self._faces = np.concatenate([morph.faces, [[corner, corner + 1, corner + 2], [corner, corner + 2, corner + 3]]])
-        self._matrix, self._size = camera.projection(width / height), np.array([width, height])
+        self._matrix, self._size = camera.projection(width / height).astype(np.float32), np.array([width, height])
         on_gl_thread(self._open, camera, width, height)
 
     def _open(self, camera: Camera, width: int, height: int) -> None:
@@ -53,8 +53,7 @@ class GLPainter:
 
     def _box(self, points: Floats) -> tuple[int, int, int, int]:
         """The rectangle of pixels round *points*, as OpenGL has it: left, bottom, width, height."""
-        clip = points @ self._matrix[:, :3].T + self._matrix[:, 3]
-        pixels = (clip[:, :2] / clip[:, 3:] + 1) / 2 * self._size
+        pixels = (to_screen(points, self._matrix)[:, :2] + 1) / 2 * self._size
         low = np.clip(np.floor(pixels.min(axis=0)) - 2, 0, self._size).astype(int)
         high = np.clip(np.ceil(pixels.max(axis=0)) + 2, 0, self._size).astype(int)
         return int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1])

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipdb.render.morph import Ints, Morph
-from lipdb.render.scene import Camera, Floats, background, encode
+from lipdb.render.scene import Camera, Floats, background, encode, to_screen
 
 _NOTHING = np.uint64(0xFFFFFFFFFFFFFFFF)
 _DEPTHS = np.float64(0xFFFFFF00)
@@ -59,8 +59,7 @@ class NumpyPainter:
 
     def _project(self, positions: Floats) -> Floats:
         """Pixel x, pixel y (downwards) and depth 0..1, shape ``(n, 3)``."""
-        clip = positions @ self._matrix[:, :3].T + self._matrix[:, 3]
-        unit = clip[:, :3] / clip[:, 3:]
+        unit = to_screen(positions, self._matrix)
         return np.column_stack([(unit[:, 0] + 1) / 2 * self._width, (1 - unit[:, 1]) / 2 * self._height, (unit[:, 2] + 1) / 2])
 
     def _fragments(self, faces: Ints, screen: Floats) -> tuple[Ints, Ints, Floats, NDArray[np.uint64]]:
