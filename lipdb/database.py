@@ -18,6 +18,7 @@ from lipdb.schedule import SILENCE
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from lipdb.characters.add import Added
     from lipdb.characters.character import Character
     from lipdb.curated.tsv import Records, Row
     from lipdb.curves.curve import Curve, CurveKey
@@ -134,10 +135,24 @@ class Database:
     def character(self, name: str) -> Character:
         """The character *name*. Raises `InputError` when there is none."""
         from lipdb.characters.character import Character
-        from lipdb.paths import home
 
         known = {row["character"]: row for row in self.characters()}
-        return Character.from_records(self.records, _known(name, known, "character"), folder=home() / "characters")
+        return Character.from_records(self.records, _known(name, known, "character"), folder=_faces())
+
+    def add_character(self, path: str | Path, *, name: str, title: str = "", author: str) -> Added:
+        """Add the face in the files at *path* as *name*: copy them, match its shapes to known sets, save its rows.
+
+        What was doubtful or missing stands in the answer. Raises `InputError`, `MeshError` and `OutputError`; nothing is
+        left behind then.
+        """
+        from lipdb.characters.add import add_character
+
+        added = add_character(Path(path), name=name, title=title, records=self.records, folder=_faces())
+        with self.edit(author=author, note=f"Add the character {name}") as edit:
+            for table, rows in added.tables.items():
+                for row in rows:
+                    edit.put(table, row)
+        return added
 
     def pose_set(self, name: str) -> PoseSet:
         """The pose set *name*."""
@@ -243,6 +258,13 @@ class Database:
             PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in poses})
             for (left, right), count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
         ]
+
+
+def _faces() -> Path:
+    """Where the files of added characters are kept."""
+    from lipdb.paths import home
+
+    return home() / "characters"
 
 
 def _known(name: str, known: Mapping[str, object], what: str) -> str:
