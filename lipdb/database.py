@@ -137,7 +137,7 @@ class Database:
         from lipdb.characters.character import Character
 
         known = {row["character"]: row for row in self.characters()}
-        return Character.from_records(self.records, _known(name, known, "character"), folder=_faces())
+        return Character.from_records(self.records, _known(name, known, "character"), folder=self.store.characters_folder)
 
     def add_character(self, path: str | Path, *, name: str, title: str = "", author: str) -> Added:
         """Add the face in the files at *path* as *name*: copy them, match its shapes to known sets, save its rows.
@@ -147,7 +147,7 @@ class Database:
         """
         from lipdb.characters.add import add_character
 
-        added = add_character(Path(path), name=name, title=title, records=self.records, folder=_faces())
+        added = add_character(Path(path), name=name, title=title, records=self.records, folder=self.store.characters_folder)
         with self.edit(author=author, note=f"Add the character {name}") as edit:
             for table, rows in added.tables.items():
                 for row in rows:
@@ -258,13 +258,6 @@ class Database:
             PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in poses})
             for (left, right), count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
         ]
-
-
-def _faces() -> Path:
-    """Where the files of added characters are kept."""
-    from lipdb.paths import home
-
-    return home() / "characters"
 
 
 def _known(name: str, known: Mapping[str, object], what: str) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from importlib.metadata import PackageNotFoundError, version
-from sqlite3 import sqlite_version
 from typing import Any
 
 import click
@@ -34,7 +33,6 @@ def doctor(options: Options, as_json: bool) -> None:
 
 def _packages() -> Iterator[dict[str, Any]]:
     yield {"part": "python", "state": "ok", "detail": sys.version.split()[0]}
-    yield {"part": "sqlite", "state": "ok", "detail": sqlite_version}
     for package in PACKAGES:
         try:
             yield {"part": package, "state": "ok", "detail": version(package)}
@@ -52,7 +50,7 @@ def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[s
 def _database(options: Options) -> str:
     with options.open() as db:
         waits = "; newer curated text waits: lipdb db upgrade" if db.store.outdated else ""
-        return f"{db.store.where}, revision {db.store.revision}{waits}"
+        return f"{db.store.describe()}, revision {db.store.revision}{waits}"
 
 
 def _voice(options: Options) -> str:
