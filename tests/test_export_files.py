@@ -133,6 +133,29 @@ def test_cue_files_are_rhubarbs(tmp_path: Path) -> None:
     assert "A" in {shape for _, shape in rows}
 
 
+def test_glb_holds_the_mesh_and_an_animation_of_its_shapes(take: Performance, tmp_path: Path) -> None:
+    take.save(tmp_path / "a.glb")
+    raw = (tmp_path / "a.glb").read_bytes()
+    size = int.from_bytes(raw[12:16], "little")
+    document, data = json.loads(raw[20 : 20 + size]), raw[20 + size + 8 :]
+
+    def numbers(accessor: int) -> np.ndarray:
+        entry = document["accessors"][accessor]
+        return np.frombuffer(data, "<f4", entry["count"], document["bufferViews"][entry["bufferView"]]["byteOffset"])
+
+    names = document["meshes"][0]["extras"]["targetNames"]
+    (sampler,) = document["animations"][0]["samplers"]
+    weights = numbers(sampler["output"]).reshape(-1, len(names))
+    assert names == ["W", "open"]
+    assert np.allclose(numbers(sampler["input"]), take.track.times)
+    assert np.allclose(weights, np.stack([take.shapes.pose(name) for name in names], axis=1))
+
+
+def test_a_character_of_pictures_has_no_glb(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"'flat' has pictures and no mesh; write \.tsv"):
+        flat_performance(tmp_path).save(tmp_path / "a.glb")
+
+
 def test_every_format_gives_the_same_bytes_again(take: Performance, tmp_path: Path) -> None:
     for suffix in sorted(set(plugins.exporters()) - {".mp4", ".webp"}):
         take.save(tmp_path / f"one{suffix}")

@@ -17,7 +17,5 @@ def write_glb(performance: Performance, path: Path) -> None:
 
     mesh = performance.character.mesh
     if mesh is None:
-        raise InputError(
-            f"character {performance.character.name!r} has pictures and no mesh; write .tsv, .cues.json or .mp4 instead of .glb"
-        )
+        raise InputError(f"character {performance.character.name!r} has pictures and no mesh; write .tsv or .mp4 instead of .glb")
     write(path, mesh, animation=performance.shapes)
