@@ -48,13 +48,13 @@ def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[s
 
 
 def _database(options: Options) -> str:
-    with options.open() as db:
+    with options.open(remind=False) as db:
         waits = "; newer curated text waits: lipdb db upgrade" if db.store.outdated else ""
         return f"{db.store.describe()}, revision {db.store.revision}{waits}"
 
 
 def _voice(options: Options) -> str:
-    with options.open() as db:
+    with options.open(remind=False) as db:
         return "; ".join(f"{row['language']}: {db.voice(row['language']).version.split(';')[0]}" for row in db.languages())
 
 

@@ -23,12 +23,12 @@ class Options:
     db: str | None
     phonesets: str | None
 
-    def open(self) -> Database:
-        """The database that the options name; says so when newer curated text waits to be merged into it."""
+    def open(self, *, remind: bool = True) -> Database:
+        """The database that the options name; *remind* says when newer curated text waits to be merged into it."""
         import lipdb
 
         database = lipdb.open(self.db, phonesets=self.phonesets)
-        if database.store.outdated:
+        if remind and database.store.outdated:
             click.echo("lipdb: the curated text has changed since this database took it in; merge it with `lipdb db upgrade`", err=True)
         return database
 
