@@ -54,6 +54,15 @@ def test_the_best_library_is_taken_unless_another_is_named() -> None:
     assert _run(BACKEND, LIPDB_GL="numpy").stdout.splitlines()[1] == "numpy"
 
 
+def test_an_opengl_that_is_too_old_is_left_for_numpy_unless_opengl_is_required() -> None:
+    # Mesa pretends to be old, and gives no context of the version that pyrender asks for.
+    old = {"MESA_GL_VERSION_OVERRIDE": "2.1", "MESA_GLSL_VERSION_OVERRIDE": "120"}
+    assert _run(BACKEND, **old).stdout.splitlines()[1] == "numpy"
+    required = _run(BACKEND, LIPDB_REQUIRE_GL="1", **old)
+    assert required.returncode != 0
+    assert "MissingToolError" in required.stderr
+
+
 @pytest.mark.parametrize(
     ("environment", "words"),
     [

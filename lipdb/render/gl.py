@@ -40,19 +40,33 @@ def on_gl_thread(function: Callable[Arguments, Result], *args: Arguments.args, *
 
 @cache
 def backend() -> str:
-    """What draws the pictures here: ``egl``, ``osmesa`` or ``numpy``.
+    """What draws the pictures here: ``egl``, ``osmesa`` or ``numpy``; OpenGL only if it really starts.
 
     ``LIPDB_GL`` names one of them outright; ``LIPDB_REQUIRE_GL=1`` makes having no OpenGL a failure. Raises
     `MissingToolError`.
     """
+    required = os.environ.get("LIPDB_REQUIRE_GL") == "1"
+    chosen = _chosen()
+    if chosen != "numpy":
+        try:
+            on_gl_thread(pyrender)
+        except MissingToolError:
+            if required or os.environ.get("LIPDB_GL"):
+                raise
+            return "numpy"
+    elif required:
+        raise MissingToolError(f"LIPDB_REQUIRE_GL=1, but there is no OpenGL library here; {HOW_TO_MEND}")
+    return chosen
+
+
+def _chosen() -> str:
+    """The backend that ``LIPDB_GL`` names, else the best that has its library here."""
     wanted = os.environ.get("LIPDB_GL", "")
     if wanted not in ("", "egl", "osmesa", "numpy"):
         raise MissingToolError(f"LIPDB_GL={wanted}: there is no such backend; choose egl, osmesa or numpy")
     chosen = next((name for name in available() if wanted in ("", name)), None)
     if chosen is None:
         raise MissingToolError(f"LIPDB_GL={wanted}: its library is not here; {HOW_TO_MEND}, or unset LIPDB_GL")
-    if chosen == "numpy" and os.environ.get("LIPDB_REQUIRE_GL") == "1":
-        raise MissingToolError(f"LIPDB_REQUIRE_GL=1, but there is no OpenGL library here; {HOW_TO_MEND}")
     return chosen
 
 
@@ -158,24 +172,24 @@ def pyrender() -> Any:
 
     Raises `MissingToolError` when the backend is numpy, or when the library is there and no context can be made.
     """
-    kind = backend()
+    kind = _chosen()
     if kind == "numpy":
         raise MissingToolError(f"there is no OpenGL library here; {HOW_TO_MEND}")
     os.environ["PYOPENGL_PLATFORM"] = kind
-    if kind == "osmesa":
-        _mend_osmesa(_osmesa_library() or "OSMesa")
     vars(np).setdefault("infty", np.inf)
     window = types.ModuleType("pyrender.viewer")
     window.Viewer = None  # type: ignore[attr-defined]
     sys.modules.setdefault("pyrender.viewer", window)
-    import pyrender as package
-
     try:
+        if kind == "osmesa":
+            _mend_osmesa(_osmesa_library() or "OSMesa")
+        import pyrender as package
+
         platform = _platform(kind)
         platform.init_context()
         platform.make_current()
     except Exception as error:
-        why = f"{type(error).__name__}: {error}"
+        why = f"{type(error).__name__}: {error}".splitlines()[0]
         raise MissingToolError(f"OpenGL ({kind}) can't start ({why}); {HOW_TO_MEND}, or set LIPDB_GL=numpy") from error
     _keep.append(platform)
     return package

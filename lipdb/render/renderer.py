@@ -37,12 +37,11 @@ class Painter(Protocol):
 class Renderer:
     """Pictures of *mesh*, *size* (width, height) pixels, seen from *view* (``front``, ``three-quarter``, ``side``).
 
-    *painter* is ``egl``, ``osmesa`` or ``numpy``; by default the best that is here (see `lipdb.render.gl.backend`). Close
-    it, or use it in a ``with`` block. Raises `MeshError` for a mesh without triangles, `InputError` for a size or view
-    that can't be.
+    *painter* is ``numpy``, or else whatever `lipdb.render.gl.backend` finds. Close it, or use it in a ``with`` block.
+    Raises `MeshError` for a mesh without triangles, `InputError` for a size or view that can't be.
     """
 
-    def __init__(self, mesh: Mesh, *, size: tuple[int, int] = (640, 640), view: str = "front", painter: str | None = None) -> None:
+    def __init__(self, mesh: Mesh, *, size: tuple[int, int] = (640, 640), view: str = "front", painter: str = "") -> None:
         width, height = size
         if not (0 < width <= LARGEST and 0 < height <= LARGEST):
             raise InputError(f"picture size {width}x{height}: each side must be 1 to {LARGEST} pixels")
