@@ -6,6 +6,7 @@ both give the same segments (stress can differ before a comma, where only the sy
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 import threading
@@ -31,10 +32,11 @@ if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
 
 NOTATION = "espeak"
+# Part of a voice's version: change it with anything that changes times, so that nobody is given what was kept before.
 SETTINGS = "175 words a minute, lead-in 0.25 s, closures 1"
 SHORTEST_PAUSE = 0.06
 STRESS = {"ˈ": 1, "ˌ": 2}
-# Where the label says plosive or affricate; [^ʰ...] marks do not change where the closure is.
+# Plosives and affricates, by the first sign of their label.
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
 _PHONEMIZING = threading.Lock()
 SWITCH = re.compile(r"\([a-z-]+\)")
@@ -71,8 +73,9 @@ class EspeakVoice:
 
     @property
     def version(self) -> str:
-        """Library, package and settings."""
-        return f"espeak-ng {libespeak.espeak_version()}; lipdb {package_version('lipdb')}; {SETTINGS}"
+        """Library, package, settings and the labels that decide whether a length stays."""
+        digest = hashlib.sha256(repr(sorted(self.symbols)).encode()).hexdigest()[:12]
+        return f"espeak-ng {libespeak.espeak_version()}; lipdb {package_version('lipdb')}; {SETTINGS}; labels {digest}"
 
     def speak(self, text: str) -> Spoken:
         """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""

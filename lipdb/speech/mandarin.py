@@ -87,22 +87,25 @@ class PinyinVoice:
         marks = without_short_pauses(utterance.marks, utterance.sound.rate)
         edges = mended_edges(marks, utterance.sound)
         spoken = [token for token in tokens if not isinstance(token, Pause)]
-        times, phones = list[float](), list[Phone]()
+        words = tuple(token.written for token in spoken)
+        times, phones = zip(*self._timed(spoken, marks, starts, edges), strict=True)
+        _check_all_spoken(words, phones)
+        schedule = lay_out(np.array([*times, edges[-1]]), phones, language=self.language, notation=NOTATION, words=words)
+        return Spoken(schedule, utterance.sound, notes)
+
+    def _timed(
+        self, spoken: Sequence[Syllable | Foreign], marks: Sequence[Mark], starts: Sequence[int], edges: NDArray[np.float64]
+    ) -> Iterator[tuple[float, Phone]]:
+        """Start and phone of every pause, initial, final and foreign segment, in order."""
         for word, first, last in runs(marks, starts):
             inner = [i for i in range(first, last) if marks[i].label]
             if word < 0:
-                parts = [(edges[first], Phone(SILENCE))]
+                yield edges[first], Phone(SILENCE)
             elif isinstance(token := spoken[word], Syllable):
-                parts = _syllable(token, word, edges[inner], edges[last])
+                yield from _syllable(token, word, edges[inner], edges[last])
             else:
-                parts = [part for i in inner for part in self._foreign(marks[i].label, word, edges[i], edges[i + 1])]
-            times += [time for time, _ in parts]
-            phones += [phone for _, phone in parts]
-        words = tuple(token.written for token in spoken)
-        _check_all_spoken(words, phones)
-        times.append(edges[-1])
-        schedule = lay_out(np.array(times), phones, language=self.language, notation=NOTATION, words=words)
-        return Spoken(schedule, utterance.sound, notes)
+                for i in inner:
+                    yield from self._foreign(marks[i].label, word, edges[i], edges[i + 1])
 
     def phones(self, text: str) -> tuple[tuple[str, ...], ...]:
         """Initial and final of every syllable, and the segments of foreign words."""
