@@ -169,12 +169,13 @@ TABLES: tuple[Table, ...] = (
     ),
     Table("links/{pose_set}/{target}.tsv", _LINK, ("pose", "shape")),
     Table("curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
-    # What the shared curves are generated from. *glide* is a diphthong's second target (empty: it stays at the first).
+    # What the shared curves are generated from. *glide* is the second target of a phone that moves, such as a diphthong
+    # (empty: it stays at the first); *before* and *after* are what a phone adds to its neighbours' targets (empty: nothing).
     Table(
         "targets/{pose_set}.tsv",
         _columns(
-            "phone pose target glide? insistence " + _PROVENANCE,
-            phone=_name, pose=_name, target=_number, glide=_number, insistence=_number, **_ORIGIN,
+            "phone pose target glide? insistence before? after? " + _PROVENANCE,
+            phone=_name, pose=_name, target=_number, glide=_number, insistence=_number, before=_number, after=_number, **_ORIGIN,
         ),
         ("phone", "pose"),
     ),

@@ -34,6 +34,7 @@ SHORTEST = 0.04
 """Normalised time that any way from one target to another takes at least."""
 NEGLIGIBLE = 0.01
 """A curve that stays below this weight is left out; no eye sees it."""
+NUMBERS = ("target", "glide", "insistence", "before", "after")
 OWN: Source = ("lipdb", "Apache-2.0")
 
 
@@ -42,8 +43,9 @@ class Targets:
     """Parameters of *phones* (N) over *poses* (P).
 
     *target* and *glide*, shape (N, P), 0..1: where the phone starts to be and where it ends (they differ for
-    diphthongs). *insistence*, shape (N, P), above 0: how strongly it wants that. *lead* and *release*, shape (N,): how
-    far it reaches into a neighbour before its start and after its end; 1 is all of a neighbour that insists on nothing.
+    diphthongs). *insistence*, shape (N, P), above 0: how strongly it wants that. *before* and *after*, shape (N, P): what
+    it adds to the target of the phone before and of the phone after it. *lead* and *release*, shape (N,): how far it
+    reaches into a neighbour before its start and after its end; 1 is all of a neighbour that insists on nothing.
     *sources* names source and licence of the numbers by phone and pose (no pose: of lead and release).
     """
 
@@ -52,6 +54,8 @@ class Targets:
     target: Array
     glide: Array
     insistence: Array
+    before: Array
+    after: Array
     lead: Array
     release: Array
     sources: Mapping[tuple[str, str], Source] = field(default_factory=dict)
@@ -66,16 +70,15 @@ class Targets:
         timing = {phone: row for (phone,), row in records.get(f"timing/{pose_set}.tsv", {}).items()}
         phones = tuple(sorted({phone for phone, _ in rows} & timing.keys()))
         poses = tuple(sorted({pose for _, pose in rows}))
-        numbers = np.zeros((3, len(phones), len(poses)))
-        numbers[2] = 1.0
+        numbers = np.zeros((len(NUMBERS), len(phones), len(poses)))
+        numbers[NUMBERS.index("insistence")] = 1.0
         for (n, phone), (p, pose) in product(enumerate(phones), enumerate(poses)):
             if row := rows.get((phone, pose)):
-                numbers[:, n, p] = float(row["target"]), float(row["glide"] or row["target"]), float(row["insistence"])
+                numbers[:, n, p] = [float(row[name] or (row["target"] if name == "glide" else 0)) for name in NUMBERS]
         reach = np.array([[float(timing[phone][name]) for phone in phones] for name in ("lead", "release")]).reshape(2, -1)
         sources = {(row["phone"], row["pose"]): (row["source"], row["licence"]) for row in rows.values()}
         sources |= {(phone, ""): (row["source"], row["licence"]) for phone, row in timing.items()}
-        target, glide, insistence = numbers
-        targets = cls(phones, poses, target, glide, insistence, lead=reach[0], release=reach[1], sources=sources)
+        targets = cls(phones, poses, **dict(zip(NUMBERS, numbers, strict=True)), lead=reach[0], release=reach[1], sources=sources)
         targets.check(pose_set)
         return targets
 
@@ -96,7 +99,9 @@ def shapes(targets: Targets, left: NDArray[np.intp], right: NDArray[np.intp]) ->
     Two arrays of shape (M, P, 7): silence, the left phone's middle, where the way starts, the border, where it ends,
     the right phone's middle, silence. Times never run backwards; weights lie in 0..1.
     """
-    a, b = targets.glide[left], targets.target[right]
+    awake = np.array([phone != SILENCE for phone in targets.phones])[:, None]
+    a = np.clip(targets.glide[left] + targets.before[right], 0, 1) * awake[left]
+    b = np.clip(targets.target[right] + targets.after[left], 0, 1) * awake[right]
     share = targets.insistence[right] / (targets.insistence[left] + targets.insistence[right])
     start = np.clip(BORDER - targets.lead[right][:, None] * share / 2, 0, BORDER - SHORTEST / 2)
     end = np.clip(BORDER + targets.release[left][:, None] * (1 - share) / 2, BORDER + SHORTEST / 2, 1)
