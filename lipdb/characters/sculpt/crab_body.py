@@ -74,7 +74,7 @@ def _shapes(mouth: MouthSurface) -> dict[str, Floats]:
     outside = np.where(mouth.depth > 0, 1 - 0.5 * smoothstep(0.3, 1.0, mouth.depth), 1)
     drop = np.where(mouth.sine < 0, 0.3 + 0.7 * sine**0.8, 0.3 * (1 - sine**0.6)) * np.exp(-((mouth.mu / 1.1) ** 2)) * outside
     corners = near(mouth.positions, (0.40, -0.18, 0.72), (0.15, 0.15, 0.4)) * (z > 0.2) * (1 - 0.7 * smoothstep(0.05, 0.6, mouth.depth))
-    side = np.sign(x)
+    side = np.tanh(x / 0.08)
     forward, rolled = vectors(0, 0, m.lips, n), -0.050 * m.rim - 0.012 * m.edge
     return {
         "mouth_open": vectors(-0.08 * x * m.lips, -0.30 * drop + 0.08 * m.upper * m.lips, -0.04 * drop, n),

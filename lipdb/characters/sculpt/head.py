@@ -81,7 +81,7 @@ def head_surface(rows: int = 72, columns: int = 100) -> HeadSurface:
     normals = gradient(form, bare)
     sine, mu = np.sin(slit.theta), slit.mu
     x = bare[:, 0]
-    bow = 0.010 * bump(np.abs(x) - 0.065, 0.040) - 0.014 * bump(x, 0.034)
+    bow = 0.009 * bump(np.abs(x) - 0.075, 0.048) - 0.010 * bump(x, 0.048)
     border = np.arcsinh(mix(LIP_LOWER, LIP_UPPER + bow, smoothstep(-0.4, 0.4, sine)) / HALF_WIDTH)
     lip = mu / border
     surface = _lips(bare, normals, lip, np.abs(sine) ** 0.55, sine, mu)
@@ -121,6 +121,6 @@ def skin_colour(points: Floats, normals: Floats) -> Floats:
 
 def _skin(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Floats:
     colours = skin_colour(bare, normals)
-    colours = tint(colours, LIP, smoothstep(1.10, 0.93, lip) * smoothstep(-0.2, 0.15, taper) * 0.9)
+    colours = tint(colours, LIP, smoothstep(1.14, 0.90, lip) * smoothstep(-0.2, 0.15, taper) * 0.9)
     colours = tint(colours, srgb("#7a3a33"), near(bare, (0.044, -0.180, 0.90), (0.018, 0.010, 0.05)) * 0.5)  # nostrils
     return tint(colours, INSIDE, np.exp(-((lip / 0.20) ** 2)) * taper * 0.7)

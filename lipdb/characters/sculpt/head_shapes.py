@@ -40,7 +40,7 @@ def mouth_shapes(mouth: MouthSurface) -> dict[str, Floats]:
     n, points, m = len(mouth.positions), mouth.positions, LipMasks.of(mouth)
     x = points[:, 0]
     forward = vectors(0, 0, m.lips, n)
-    pressed_y, pressed_z = (-0.034 * m.upper + 0.046 * m.lower) * m.edge, -0.050 * m.rim - 0.012 * m.edge
+    pressed_y, pressed_z = (-0.037 * m.upper + 0.043 * m.lower) * m.rim, -0.080 * m.rim + 0.006 * m.edge
     stretched_x = 0.22 * x * m.lips + 0.07 * x * (m.around - m.lips)
     stretched_y = 0.014 * (m.upper - m.lower) * m.lips * (1 - m.corner)
     return {
@@ -58,7 +58,7 @@ def skin_shapes(points: Floats, fade: Floats) -> dict[str, Floats]:
 
     They depend on the place alone, so that head, lids and brows move together.
     """
-    n, side, front = len(points), np.sign(points[:, 0]), (points[:, 2] > 0.2) * fade
+    n, side, front = len(points), np.tanh(points[:, 0] / 0.08), (points[:, 2] > 0.2) * fade
     corner = near(points, (0.29, -0.42, 0.72), (0.15, 0.15, 0.3)) * front
     cheek = near(points, (0.40, -0.17, 0.66), (0.13, 0.13, 0.3)) * front
     brow = near(points, (0.30, 0.43, 0.70), (0.21, 0.12, 0.4)) * front

@@ -32,7 +32,7 @@ class LipMasks:
         """The masks of one mouth; inside of it movements fade towards the throat."""
         fade = 1 - 0.8 * smoothstep(0.1, 0.6, mouth.depth)
         soon = 1 - smoothstep(0.2, 0.7, mouth.depth)
-        lips, around, edge, rim = (np.exp(-((mouth.mu / width) ** 2)) for width in (0.62, 1.0, 0.30, 0.20))
+        lips, around, edge, rim = (np.exp(-((mouth.mu / width) ** 2)) for width in (0.62, 1.0, 0.30, 0.22))
         upper, lower = np.clip(mouth.sine, 0, 1) ** 0.7, np.clip(-mouth.sine, 0, 1) ** 0.7
         return cls(lips * fade, around * fade, edge * soon, rim * soon, upper, lower, np.abs(mouth.cosine) ** 3)
 
