@@ -44,6 +44,7 @@ def _mesh(file: GltfFile, name: str) -> Mesh:
             found = file.object(primitive, where)
             targets = file.items(found.get("targets"), f"the targets of {where}")
             moves += _positions_count(file, found, where) * (1 + len(targets))
+            moves += accessor_count(file, found["indices"]) if "indices" in found else 0
             if moves > LARGEST_MOVES:
                 raise file.fault(f"has more than {LARGEST_MOVES} vertices times shapes; export the head alone")
             names = _target_names(file, entry, found, len(targets))
