@@ -257,7 +257,7 @@ def test_a_fault_gets_one_line_that_says_what_and_where(change, message):
     ],
 )
 def test_files_that_are_no_gltf_are_refused(data, message):
-    with pytest.raises(MeshError, match="^bob.glb: ") as caught:
+    with pytest.raises(MeshError, match=r"^bob\.glb: ") as caught:
         parse_glb(data, name="bob.glb")
     assert message in str(caught.value)
 
