@@ -37,9 +37,16 @@ class NumpyPainter:
         picture = self._still.copy()
         pixels, colours, _ = self._draw(self._faces, positions, light)
         picture[pixels] = colours
+        return self._averaged(picture.reshape(self._height, self._width, 3))
+
+    def _averaged(self, picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """One pixel for every square of samples."""
         n = self._samples
-        grid = picture.reshape(self._height // n, n, self._width // n, n, 3)
-        return grid if n == 1 else (grid.astype(np.uint16).sum(axis=(1, 3)) // (n * n)).astype(np.uint8)
+        total = np.zeros((self._height // n, self._width // n, 3), np.uint16)
+        for row in range(n):
+            for column in range(n):
+                total += picture[row::n, column::n]
+        return (total // (n * n)).astype(np.uint8)
 
     def close(self) -> None:
         """Nothing to give back; every painter has it."""
