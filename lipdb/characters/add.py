@@ -76,7 +76,10 @@ def add_character(path: Path, *, name: str, title: str = "", records: Records, f
     if f"characters/{name}/character.tsv" in records:
         raise InputError(f"there is a character {name!r} already; choose another name")
     with _Workspace(folder, name) as work:
-        drawing, shapes = _copy(path, work.place, name)
+        try:
+            drawing, shapes = _copy(path, work.place, name)
+        except OSError as error:
+            raise InputError(f"{path}: can't be read ({error.strerror}); give files that you may read") from error
         matched = match(shapes, records)
         work.keep()
     character = {"character": name, "pose_set": SHARED, "shapes": "", "drawing": drawing, "title": title or name, "source": SOURCE}
