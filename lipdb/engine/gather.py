@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lipdb.engine.table import GRAIN, Bools, CurveTable, Floats, Ints
+from lipdb.engine.table import GRAIN, CurveTable, Floats, Ints
 
 TINY = 1e-300
 
@@ -30,18 +30,20 @@ def gather(table: CurveTable, pair: Ints, base: Ints, rest: Ints, first: Ints, s
     Keys are mapped one by one, and joined by straight lines only then (design: warp in two pieces).
     """
     begin = table.first[pair]
-    count = table.first[pair + 1] - begin
-    shift = np.cumsum(count)
-    index = np.repeat(begin - shift + count, count)
+    count = table.first[pair + 1]
+    count -= begin
+    begin -= count.cumsum()
+    begin += count
+    index = begin.repeat(count)
     index += np.arange(len(index))
     place = table.left.take(index)
-    place *= np.repeat(first.astype(np.float64), count)
-    place += np.repeat(rest.astype(np.float64), count)
+    place *= first.astype(np.float64).repeat(count)
+    place += rest.astype(np.float64).repeat(count)
     right = table.right.take(index)
-    right *= np.repeat(second.astype(np.float64), count)
+    right *= second.astype(np.float64).repeat(count)
     place += right
     place /= step
-    return Keys(np.repeat(base, count), place, index)
+    return Keys(base.repeat(count), place, index)
 
 
 def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, width: int) -> Floats:
@@ -50,49 +52,52 @@ def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, w
     *row* is the row of the result that each pose takes. In the first *held* rows (must-reach poses) each grid point
     also takes the keys within half a step of it, so that no peak falls between two.
     """
-    out = np.zeros((len(row), width))
-    start = (row * width - begin).take(table.pose).take(keys.index)
+    out = np.zeros(len(row) * width)
+    start = (row * width - begin).take(table.pose.take(keys.index))
     start += keys.base
     weight = table.weight.take(keys.index)
-    _draw(out.reshape(-1), start, keys.place, weight, table.joined.take(keys.index))
     if held:
-        sharp = np.flatnonzero((row < held).take(table.pose).take(keys.index))
-        np.maximum.at(out.reshape(-1), start[sharp] + np.floor(keys.place[sharp] + 0.5).astype(np.int64), weight[sharp])
-    return out
+        sharp = (start < held * width).nonzero()[0]
+        np.maximum.at(out, start[sharp] + np.rint(keys.place[sharp]).astype(np.int64), weight[sharp])
+    if len(start):
+        _draw(out, start[:-1], keys.place, weight, table.joined.take(keys.index[:-1]))
+    return out.reshape(len(row), width)
 
 
-def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Bools) -> None:
+def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Floats) -> None:
     """Draw straight lines from each key to the next, where *joined*, into flat *out* by maximum.
 
     A line takes every grid point from one key to the other, both included. Lines that meet at most one grid point may
     be as steep as they like; the others change by at most 1 a step, so counting steps through them loses no digits.
     """
-    if len(place) < 2:
-        return
-    here, there, low = place[:-1], place[1:], weight[:-1]
-    first, width, rise = np.ceil(here), there - here, weight[1:] - low
-    count = np.floor(there)
+    first = np.ceil(place[:-1])
+    width = place[1:] - place[:-1]
+    rise = weight[1:] - weight[:-1]
+    count = np.floor(place[1:])
     count -= first
     count += 1
-    count *= joined[:-1]
-    counts = np.maximum(count, 0, out=count).astype(np.int64)
-    value = first - here
-    value /= np.maximum(width, TINY)
+    count *= joined
+    np.maximum(count, 0, out=count)
+    np.maximum(width, TINY, out=width)
+    value = first - place[:-1]
+    value /= width
     value *= rise
-    value += low
-    rise /= np.maximum(width, 1, out=width)
-    offset = np.cumsum(counts)
-    offset -= counts
-    value -= rise * offset
+    value += weight[:-1]
+    np.maximum(width, 1, out=width)
+    rise /= width
+    offset = count.cumsum()
+    offset -= count
+    value -= np.multiply(rise, offset, out=width)
+    first -= offset
     begin = first.astype(np.int64)
-    begin += start[:-1]
-    begin -= offset
-    at = np.repeat(begin, counts)
+    begin += start
+    counts = count.astype(np.int64)
+    at = begin.repeat(counts)
     steps = np.arange(len(at))
     at += steps
-    values = np.repeat(rise, counts)
+    values = rise.repeat(counts)
     values *= steps
-    values += np.repeat(value, counts)
+    values += value.repeat(counts)
     values += GRAIN
     values -= GRAIN
     np.maximum.at(out, at, values)

@@ -14,7 +14,7 @@ from lipdb.engine.table import Floats, Ints
 def peaks(weights: Floats) -> tuple[Ints, Ints]:
     """First and last point of every peak or plateau, as flat indices."""
     begin, end, up = moves(weights)
-    tops = np.flatnonzero(up[:-1] & ~up[1:])
+    tops = (up[:-1] & ~up[1:]).nonzero()[0]
     return end[tops], begin[tops + 1]
 
 

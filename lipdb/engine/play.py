@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import overload
 
 import numpy as np
@@ -14,13 +15,18 @@ from lipdb.engine.gather import gather, stitch
 from lipdb.engine.limits import peaks, spline
 from lipdb.engine.smooth import smooth
 from lipdb.engine.table import Bools, CurveTable, Floats, Ints
-from lipdb.engine.timeline import CONTROL_RATE, Line, Timeline, lay
+from lipdb.engine.lines import Line
+from lipdb.engine.timeline import CONTROL_RATE, Timeline, lay
 from lipdb.errors import CurveError
 from lipdb.poses import PoseSet
 from lipdb.track import Track
 
 CHUNK = 8192
-"""Frames worked out at a time."""
+"""Frames worked out at a time: few enough for the processor's cache, many enough for numpy."""
+
+# glibc hands freed memory back to the system and gets it anew page by page, which takes longer than the arithmetic here.
+# Freeing one large block, never touched, raises the size from which it does so (mallopt(3), M_MMAP_THRESHOLD).
+del (_block := [np.empty(2**21)])[:]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +61,7 @@ class Player:
         self.order: Order = order_of(pose_set)
         self.shuts: Bools = np.any(table.closing[pose_set.must_reach], axis=0)
         self.window = pose_set.window * CONTROL_RATE
-        self.pairs = timeline.pairs()
+        self.pairs = timeline.pairs
 
     def margin(self, rate: float) -> int:
         """Points, *rate* a second, that constraints and speed limits can reach across."""
@@ -130,8 +136,8 @@ def animate_lines(
     timeline = lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest)
     player = Player(table, pose_set, timeline)
     axis = np.empty((len(pose_set.poses), timeline.axis))
-    for begin in range(0, timeline.axis, CHUNK):
-        end = min(begin + CHUNK, timeline.axis)
+    cuts = np.linspace(0, timeline.axis, 1 + max(1, round(timeline.axis / CHUNK))).astype(np.int64).tolist()
+    for begin, end in pairwise(cuts):
         for pose, weights in zip(player.order.pose, player.frames(begin, end), strict=True):
             axis[pose, begin:end] = weights
     return Tracks(axis, timeline.origin, timeline.frames, pose_set.poses, fps)

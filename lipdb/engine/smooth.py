@@ -13,10 +13,10 @@ def moves(weights: Floats) -> tuple[Ints, Ints, Bools]:
     if len(flat) < 2:
         return np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, bool)
     way = (flat[1:] > flat[:-1]).view(np.int8) - (flat[1:] < flat[:-1]).view(np.int8)
-    turns = np.flatnonzero(way[1:] != way[:-1]) + 1
+    turns = (way[1:] != way[:-1]).nonzero()[0] + 1
     edges = np.concatenate(([0], turns, [len(way)]))
     sign = way[edges[:-1]]
-    moving = np.flatnonzero(sign)
+    moving = sign.nonzero()[0]
     return edges[moving], edges[moving + 1], sign[moving] > 0
 
 
@@ -30,7 +30,7 @@ def valleys(weights: Floats, window: float) -> tuple[Ints, Ints]:
     begin, end, up = moves(weights)
     if len(begin) < 2:
         return begin[:0], end[:0]
-    parts = np.flatnonzero((up[:-1] & ~up[1:]) | (begin[1:] - end[:-1] >= window)) + 1
+    parts = ((up[:-1] & ~up[1:]) | (begin[1:] - end[:-1] >= window)).nonzero()[0] + 1
     parts = np.concatenate(([0], parts, [len(begin)]))
     first, last = parts[:-1], parts[1:] - 1
     begin, end = begin[first], end[last]
@@ -44,11 +44,14 @@ def fill(weights: Floats, begin: Ints, end: Ints) -> None:
     inner = end - begin - 1
     if not inner.any():
         return
-    step = np.arange(1, int(inner.sum()) + 1) - np.repeat(np.cumsum(inner) - inner, inner)
-    line = np.repeat((flat[end] - flat[begin]) / (end - begin), inner)
+    step = (inner - inner.cumsum() + 1).repeat(inner)
+    step += np.arange(len(step))
+    low = flat[begin]
+    line = ((flat[end] - low) / (end - begin)).repeat(inner)
     line *= step
-    line += np.repeat(flat[begin], inner)
-    at = np.repeat(begin, inner) + step
+    line += low.repeat(inner)
+    at = begin.repeat(inner)
+    at += step
     flat[at] = np.maximum(flat[at], line)
 
 
@@ -61,18 +64,18 @@ def smooth(weights: Floats, window: float, held: int, borders: Floats, closing: 
     """
     begin, end = valleys(weights, window)
     width = weights.shape[1]
-    count = int(np.searchsorted(begin, held * width))
+    count = int(begin.searchsorted(held * width))
     if count:
         shut = _shut(begin[:count] % width, end[:count] % width, borders, closing)
-        kept = np.concatenate((np.flatnonzero(shut), np.arange(count, len(begin))))
+        kept = np.concatenate((shut.nonzero()[0], np.arange(count, len(begin))))
         begin, end = begin[kept], end[kept]
     fill(weights, begin, end)
 
 
 def _shut(begin: Ints, end: Ints, borders: Floats, closing: Bools) -> Bools:
     """Which valleys have nothing but closing phones in them."""
-    opened = np.concatenate(([0], np.cumsum(~closing)))
-    first = np.searchsorted(borders, begin, side="right") - 1
-    last = np.searchsorted(borders, end, side="left") - 1
+    opened = np.concatenate(([0], (~closing).cumsum()))
+    first = borders.searchsorted(begin, side="right") - 1
+    last = borders.searchsorted(end) - 1
     shut: Bools = (first >= 0) & (opened[last + 1] == opened[np.maximum(first, 0)])
     return shut

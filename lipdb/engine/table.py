@@ -45,7 +45,7 @@ class CurveTable:
 
     Pair ``(a, b)`` has the number ``a * N + b``; its keys are ``first[pair] : first[pair + 1]`` of the key arrays, by
     pose and then by time. A key stands at ``left`` times the length of the first phone plus ``right`` times that of
-    the second after the pair's start; *joined* marks all but the last key of each curve. Outside its keys a curve is 0.
+    the second after the pair's start; *joined* is 0 for the last key of each curve, else 1. Outside its keys a curve is 0.
     """
 
     phones: tuple[str, ...]
@@ -55,7 +55,7 @@ class CurveTable:
     right: Floats
     weight: Floats
     pose: Ints
-    joined: Bools
+    joined: Floats
     mean_reach: Floats
 
     @classmethod
@@ -77,8 +77,8 @@ class CurveTable:
                 reach[p, [a, b]] += _own_parts(curve) if a != b else max(_own_parts(curve))
         lengths = np.array([len(part[0]) for part in parts], dtype=np.int64)
         owner = np.repeat(np.array([part[3] for part in parts], dtype=np.int64), lengths)
-        joined = np.ones(int(lengths.sum()), dtype=bool)
-        joined[np.cumsum(lengths) - 1] = False
+        joined = np.ones(int(lengths.sum()))
+        joined[np.cumsum(lengths) - 1] = 0
         left, right, weight = (np.concatenate([part[i] for part in parts] or [np.zeros(0)]) for i in range(3))
         weight = weight + GRAIN - GRAIN
         pose_of = np.repeat(np.array([part[4] for part in parts], dtype=np.int64), lengths)

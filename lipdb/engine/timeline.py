@@ -11,23 +11,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import chain
-from operator import index
 
 import numpy as np
 
+from lipdb.engine.lines import REST, Line, flat, merged, rested
 from lipdb.engine.table import CurveTable, Floats, Ints
-from lipdb.errors import CurveError, InputError, ScheduleError
+from lipdb.errors import InputError, ScheduleError
 
 CONTROL_RATE = 60
 """Control points of the B-spline a second: smoothing is fixed in time, whatever the frame rate."""
-REST = 250_000
-"""The most of a pause, in microseconds, that a pair with silence covers; also the silence put before and after speech."""
 SPLIT = 1_000_000
 """Pauses this long, in microseconds, part a line into runs that each lay out their control points anew."""
-
-Line = tuple[Sequence[int], Sequence[str]]
-"""Edges in microseconds, one more than there are phones, and the common phones between them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,22 +81,18 @@ class Pairs:
         return Pairs(self.step, self.pair[part], self.base[part], self.rest[part], self.first[part], self.second[part], self.stop[part])
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class Timeline:
     """Lines one after another on one axis of frames, with rest between them, so that they are played as one.
 
     A run is a stretch of speech with control points (cells) of its own. It is anchored on the frame at or before its
-    first sound: there stand its cell *cell* and the axis' frame *frame*; its cells are *low* to *high*, its frames begin at
-    *first_frame*. Pair: number in the table, lengths of both phones and start after the anchor (units), run. Frame 0
-    of each line stands at *origin* on the axis of *axis* frames; *frames* were asked for.
+    first sound: there stand its cell *cell* and the axis' frame *frame*; its cells are *low* to *high*, its frames begin
+    at *first_frame*. *pairs* stand on the cells. Frame 0 of each line stands at *origin* on the axis of *axis* frames;
+    *frames* were asked for.
     """
 
     rate: Rate
-    pair: Ints
-    first_length: Ints
-    second_length: Ints
-    start: Ints
-    run: Ints
+    pairs: Pairs
     cell: Ints
     frame: Ints
     first_frame: Ints
@@ -111,14 +101,6 @@ class Timeline:
     origin: Ints
     frames: Ints
     axis: int
-
-    def pairs(self) -> Pairs:
-        """The pairs on the grid of control points."""
-        step = self.rate.control
-        whole, rest = np.divmod(self.start, step)
-        base = self.cell[self.run] + whole
-        stop = base + _up(rest + self.first_length + self.second_length, step)
-        return Pairs(step, self.pair, base, rest, self.first_length, self.second_length, stop)
 
     def cells(self, frames: Ints) -> tuple[Ints, Floats]:
         """The cell at or before each of *frames* of the axis, and how far on (0..1) to the next one the frame is."""
@@ -137,70 +119,6 @@ class Timeline:
         return self.frame[run] + (2 * units + self.rate.frame) // (2 * self.rate.frame)
 
 
-def _flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints, Ints]:
-    """Line number, phone number, start and end (µs) of every phone of *lines*. Raises errors for what can't be played."""
-    sizes = np.fromiter((len(phones) for _, phones in lines), np.int64, len(lines))
-    spans = np.fromiter((len(edges) for edges, _ in lines), np.int64, len(lines))
-    if (spans != sizes + 1).any() or not sizes.all():
-        bad = int(np.argmax((spans != sizes + 1) | (sizes == 0)))
-        raise ScheduleError(
-            f"line {bad}: {sizes[bad]} phones and {spans[bad]} edges; give at least one phone and one edge more than phones"
-        )
-    try:
-        phone = np.fromiter(map(table.number.__getitem__, chain.from_iterable(phones for _, phones in lines)), np.int64, int(sizes.sum()))
-    except KeyError as error:
-        raise CurveError(f"the table of curves has no phone {error.args[0]!r}; build it with every phone of the schedule") from None
-    edges = _whole([edges for edges, _ in lines], int(spans.sum()))
-    line = np.repeat(np.arange(len(lines)), sizes)
-    at = np.arange(len(phone)) + line
-    start, end = edges[at], edges[at + 1]
-    if (end <= start).any():
-        bad = int(np.argmax(end <= start))
-        raise ScheduleError(
-            f"line {line[bad]}: a phone lasts from {start[bad]} to {end[bad]} µs; every phone must last a microsecond or more"
-        )
-    return line, phone, start, end
-
-
-def _whole(parts: list[Sequence[int]], size: int) -> Ints:
-    """All *parts* in one array. Raises `ScheduleError` for anything but whole numbers."""
-    try:
-        if parts and isinstance(parts[0], np.ndarray):
-            return np.concatenate(parts).astype(np.int64, casting="safe")
-        return np.fromiter(map(index, chain.from_iterable(parts)), np.int64, size)
-    except TypeError:
-        raise ScheduleError("edges must be whole microseconds; round(seconds * 1_000_000) gives them") from None
-
-
-def _merged(line: Ints, phone: Ints, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints, Ints]:
-    """The same with neighbouring silences made one."""
-    again = np.zeros(len(phone), dtype=bool)
-    again[1:] = (phone[1:] == 0) & (phone[:-1] == 0) & (line[1:] == line[:-1])
-    if not again.any():
-        return line, phone, start, end
-    kept = np.flatnonzero(~again)
-    return line[kept], phone[kept], start[kept], end[np.append(kept[1:], len(phone)) - 1]
-
-
-def _rested(line: Ints, phone: Ints, start: Ints, end: Ints) -> tuple[Ints, Ints, Ints, Ints]:
-    """The same with a short silence before and after every line that has none there."""
-    opens = np.append(True, line[1:] != line[:-1])
-    closes = np.append(opens[1:], True)
-    lead, trail = opens & (phone != 0), closes & (phone != 0)
-    extra = lead.astype(np.int64) + trail
-    if not extra.any():
-        return line, phone, start, end
-    at = np.arange(len(phone)) + np.cumsum(extra) - trail
-    size = len(phone) + int(extra.sum())
-    columns = [np.zeros(size, dtype=np.int64) for _ in range(4)]
-    for column, values in zip(columns, (line, phone, start, end), strict=True):
-        column[at] = values
-    for where, step, low, high in ((lead, -1, start - REST, start), (trail, 1, end, end + REST)):
-        there = at[where] + step
-        columns[0][there], columns[2][there], columns[3][there] = line[where], low[where], high[where]
-    return columns[0], columns[1], columns[2], columns[3]
-
-
 def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequence[int] | None, window: float, slowest: float) -> Timeline:
     """Lay *lines* on one axis of *fps* frames a second.
 
@@ -209,56 +127,66 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
     one over *slowest* seconds. Raises `InputError`, `ScheduleError` and `CurveError`.
     """
     rate = rate_of(fps)
-    line, phone, start, end = _rested(*_merged(*_flat(table, lines)))
-    last = np.append(np.flatnonzero(line[1:] != line[:-1]), len(line) - 1)
-    asked = np.maximum(_up(end[last] * rate.microsecond, rate.frame) + 1, 0) if frames is None else np.asarray(frames, dtype=np.int64)
-    if (asked < 0).any() or len(asked) != len(lines):
-        raise ScheduleError(f"{asked.min(initial=0)} frames asked for in {len(asked)} of {len(lines)} lines; ask for 0 or more in each")
-    left = np.flatnonzero(line[1:] == line[:-1])
-    length = np.where(phone == 0, np.minimum(end - start, REST), end - start) * rate.microsecond
-    border, of_line = end[left] * rate.microsecond, line[left]
-    opens = np.append(True, of_line[1:] != of_line[:-1])[: len(left)]
-    if not rate.aligned:
-        opens |= (phone[left] == 0) & (end[left] - start[left] >= SPLIT)
-    at = np.flatnonzero(opens)
-    run = np.cumsum(opens) - 1
+    (line, phone, start, end), sizes = merged(*rested(*flat(table, lines)))
+    asked = _asked(rate, end[sizes.cumsum() - 1], frames)
+    inner = np.ones(len(line), dtype=bool)
+    inner[sizes.cumsum() - 1] = False
+    left = inner.nonzero()[0]
+    length = end - start
+    np.minimum(length, REST, out=length, where=phone == 0)
+    length *= rate.microsecond
+    first, second, border = length[left], length[left + 1], end[left] * rate.microsecond
+    at = _runs(rate, sizes, start, end, phone, left)
+    count = np.diff(at, append=len(left))
     anchor = border[at] // rate.frame
-    begin = border - length[left] - anchor[run] * rate.frame
-    finish = begin + length[left] + length[left + 1]
+    begin = border - first - (anchor * rate.frame).repeat(count)
+    tail = at + count - 1
+    finish = begin[tail] + first[tail] + second[tail]
     pad = 2 + math.ceil(max(window * CONTROL_RATE / 2, CONTROL_RATE / slowest + 3))
-    pad_frames = 2 + math.ceil(max(window * fps / 2, fps / slowest + 3 + 3 * fps / CONTROL_RATE))
-    tail = np.append(at[1:], len(left))[: len(at)] - 1
-    low_frame, high_frame = begin[at] // rate.frame + anchor - pad_frames, _up(finish[tail], rate.frame) + anchor + pad_frames + 1
+    low, high = begin[at] // rate.control - pad, _up(finish, rate.control) + pad + 1
+    pad = 2 + math.ceil(max(window * fps / 2, fps / slowest + 3 + 3 * fps / CONTROL_RATE))
+    low_frame, high_frame = begin[at] // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
+    of_run = line[left[at]]
     first_frame, last_frame = np.zeros_like(asked), asked.copy()
-    np.minimum.at(first_frame, of_line[at], low_frame)
-    np.maximum.at(last_frame, of_line[at], high_frame)
-    sizes = last_frame - first_frame
-    origin = np.cumsum(sizes) - sizes - first_frame
-    frame = origin[of_line[at]] + anchor
-    low, high = begin[at] // rate.control - pad, _up(finish[tail], rate.control) + pad + 1
-    cell = frame if rate.on_grid else np.cumsum(high - low) - high
-    return Timeline(
-        rate=rate,
-        pair=phone[left] * len(table.phones) + phone[left + 1],
-        first_length=length[left],
-        second_length=length[left + 1],
-        start=begin,
-        run=run,
-        cell=cell,
-        frame=frame,
-        first_frame=frame + _shares(low_frame, high_frame, of_line[at]) - anchor,
-        low=cell + low,
-        high=cell + high,
-        origin=origin,
-        frames=asked,
-        axis=int(sizes.sum()),
-    )
+    np.minimum.at(first_frame, of_run, low_frame)
+    np.maximum.at(last_frame, of_run, high_frame)
+    last_frame -= first_frame
+    origin = last_frame.cumsum() - last_frame - first_frame
+    frame = origin[of_run] + anchor
+    cell = frame if rate.on_grid else (high - low).cumsum() - high
+    whole, rest = np.divmod(begin, rate.control)
+    whole += cell.repeat(count)
+    stop = whole + _up(rest + first + second, rate.control)
+    pairs = Pairs(rate.control, phone[left] * len(table.phones) + phone[left + 1], whole, rest, first, second, stop)
+    shares = frame - anchor + _shares(low_frame, high_frame, of_run)
+    return Timeline(rate, pairs, cell, frame, shares, cell + low, cell + high, origin, asked, int(last_frame.sum()))
+
+
+def _asked(rate: Rate, end: Ints, frames: Sequence[int] | None) -> Ints:
+    """How many frames each line gets, which ends at *end* microseconds. Raises `ScheduleError`."""
+    if frames is None:
+        return np.maximum(_up(end * rate.microsecond, rate.frame) + 1, 0)
+    asked = np.array(frames, dtype=np.int64)
+    if len(asked) != len(end) or (asked < 0).any():
+        raise ScheduleError(f"{asked.min(initial=0)} frames asked for in {len(asked)} of {len(end)} lines; ask for 0 or more in each")
+    return asked
+
+
+def _runs(rate: Rate, sizes: Ints, start: Ints, end: Ints, phone: Ints, left: Ints) -> Ints:
+    """The first pair of each run: of each line, and after long pauses where frames do not fall on one grid of cells."""
+    counts = sizes - 1
+    at = (counts.cumsum() - counts)[counts > 0]
+    if rate.aligned:
+        return at
+    long = (phone[left] == 0) & (end[left] - start[left] >= SPLIT)
+    long[at] = True
+    return long.nonzero()[0]
 
 
 def _shares(begin: Ints, end: Ints, line: Ints) -> Ints:
     """The first frame of each run: where its line begins, or halfway through the rest after the run before."""
     first = begin.copy()
-    inner = np.flatnonzero(line[1:] == line[:-1]) + 1
+    inner = (line[1:] == line[:-1]).nonzero()[0] + 1
     first[inner] = (end[inner - 1] + begin[inner]) // 2
     return first
 
