@@ -13,10 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from export_cases import flat_performance, mesh_performance
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from lipdb import plugins
 from lipdb.errors import InputError, OutputError
-from lipdb.export.json import read_line, read_track, track_from_json, track_to_json
+from lipdb.export.json import read_line, read_track, track_from_json, track_to_json, write_json
 from lipdb.export.keys import TOLERANCE
 from lipdb.performance import Performance
 from lipdb.sound import read_wav
@@ -92,6 +94,42 @@ def test_other_json_is_refused_in_one_line_that_names_the_file(tmp_path: Path, t
             read(file)
         assert str(caught.value).startswith(f"{file}: ")
         assert "\n" not in str(caught.value)
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    max_leaves=4,
+)
+
+
+def _places(value: object, at: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Where each value of a JSON document stands."""
+    yield at
+    entries = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in entries:
+        yield from _places(inner, (*at, key))
+
+
+@settings(max_examples=200, deadline=None)
+@given(data=st.data())
+def test_json_with_one_value_changed_reads_or_is_refused_in_one_line(
+    take: Performance, data: st.DataObject, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    file = tmp_path_factory.getbasetemp() / "damaged.json"
+    write_json(take, file)
+    document = json.loads(file.read_text())
+    where = data.draw(st.sampled_from(list(_places(document))[1:]))
+    holder = document
+    for key in where[:-1]:
+        holder = holder[key]
+    holder[where[-1]] = data.draw(JSON)
+    file.write_text(json.dumps(document))
+    for read in (read_line, read_track):
+        try:
+            read(file)
+        except InputError as error:
+            assert "\n" not in str(error)
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,7 @@ def track_from_json(data: Any) -> Track:
     try:
         fps, frames = float(data["fps"]), int(data["frames"])
         keys = {str(pose): [_key(key, frames) for key in pose_keys] for pose, pose_keys in data["keys"].items()}
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as error:
         raise InputError(f"not a track in lipdb's JSON ({type(error).__name__}: {error}); make one with `lipdb say -o`") from error
     if not 0 < fps <= 1000 or not 0 <= frames <= LONGEST * fps:
         raise InputError(
