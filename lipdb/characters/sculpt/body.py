@@ -30,7 +30,7 @@ def brows(rows: int = 18, columns: int = 8) -> list[Part]:
     along = np.gradient(middle, axis=0)
     across = np.cross(along / np.linalg.norm(along, axis=1, keepdims=True), normal)
     t = np.linspace(0, 1, rows)
-    radius = 0.036 * np.sqrt(np.sin(np.pi * np.clip(0.10 + 0.90 * t, 0, 1))) * (1 - 0.45 * t) + 0.002
+    radius = 0.034 * np.sqrt(1 - (2 * t - 1) ** 6) * (1 - 0.55 * t) + 0.001
     around = np.linspace(0, 2 * np.pi, columns, endpoint=False)
     ring = across[:, None] * np.cos(around)[None, :, None] + 0.5 * normal[:, None] * np.sin(around)[None, :, None]
     positions = (middle[:, None] + normal[:, None] * 0.004 + radius[:, None, None] * ring).reshape(-1, 3)

@@ -62,7 +62,8 @@ def _colours(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Float
     colours = tint(colours, srgb("#f39a55"), smoothstep(0.35, 0.75, spots) * 0.8)
     colours = tint(colours, DARK, bump(lip - 1.15, 0.25) * taper * 0.30)
     colours = tint(colours, LIP, smoothstep(1.1, 0.9, lip) * taper * 0.85)
-    colours = tint(colours, INSIDE, np.exp(-((lip / 0.22) ** 2)) * taper * 0.7)
+    colours = tint(colours, INSIDE, np.exp(-((lip / 0.50) ** 2)) * taper * 0.30)
+    colours = tint(colours, INSIDE, np.exp(-((lip / 0.22) ** 2)) * taper * 0.6)
     return np.asarray(colours * mix(0.50, 1, openness(form, bare, normals))[:, None])
 
 
@@ -75,7 +76,7 @@ def _shapes(mouth: MouthSurface) -> dict[str, Floats]:
     drop = np.where(mouth.sine < 0, 0.3 + 0.7 * sine**0.8, 0.3 * (1 - sine**0.6)) * np.exp(-((mouth.mu / 1.1) ** 2)) * outside
     corners = near(mouth.positions, (0.40, -0.18, 0.72), (0.15, 0.15, 0.4)) * (z > 0.2) * (1 - 0.7 * smoothstep(0.05, 0.6, mouth.depth))
     side = np.tanh(x / 0.08)
-    forward, rolled = vectors(0, 0, m.lips, n), -0.050 * m.rim - 0.012 * m.edge
+    forward, rolled = vectors(0, 0, m.lips, n), -0.080 * m.seam - 0.010 * m.edge
     return {
         "mouth_open": vectors(-0.08 * x * m.lips, -0.30 * drop + 0.08 * m.upper * m.lips, -0.04 * drop, n),
         "mouth_oo": pursed(mouth, hole=(0.085, 0.062), rim=(0.175, 0.160), lift=0.0) + 0.13 * forward,

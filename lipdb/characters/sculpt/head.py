@@ -122,5 +122,6 @@ def skin_colour(points: Floats, normals: Floats) -> Floats:
 def _skin(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Floats:
     colours = skin_colour(bare, normals)
     colours = tint(colours, LIP, smoothstep(1.14, 0.90, lip) * smoothstep(-0.2, 0.15, taper) * 0.9)
+    colours = tint(colours, INSIDE, np.exp(-((lip / 0.50) ** 2)) * taper * 0.32)
     colours = tint(colours, srgb("#7a3a33"), near(bare, (0.044, -0.180, 0.90), (0.018, 0.010, 0.05)) * 0.5)  # nostrils
     return tint(colours, INSIDE, np.exp(-((lip / 0.20) ** 2)) * taper * 0.7)

@@ -40,7 +40,7 @@ def mouth_shapes(mouth: MouthSurface) -> dict[str, Floats]:
     n, points, m = len(mouth.positions), mouth.positions, LipMasks.of(mouth)
     x = points[:, 0]
     forward = vectors(0, 0, m.lips, n)
-    pressed_y, pressed_z = (-0.037 * m.upper + 0.043 * m.lower) * m.rim, -0.080 * m.rim + 0.006 * m.edge
+    pressed_y, pressed_z = (-0.037 * m.upper + 0.043 * m.lower) * m.rim, -0.085 * m.seam - 0.010 * m.edge
     stretched_x = 0.22 * x * m.lips + 0.07 * x * (m.around - m.lips)
     stretched_y = 0.014 * (m.upper - m.lower) * m.lips * (1 - m.corner)
     return {
@@ -48,7 +48,8 @@ def mouth_shapes(mouth: MouthSurface) -> dict[str, Floats]:
         "W": pursed(mouth, hole=(0.055, 0.020), rim=(0.125, 0.098), lift=0.004) + 0.150 * forward + vectors(0, 0, 0.03 * m.around, n),
         "ShCh": pursed(mouth, hole=(0.135, 0.042), rim=(0.190, 0.120), lift=0.006) + 0.085 * forward,
         "PBM": vectors(0.02 * x * m.lips, pressed_y, pressed_z * (1 - 0.4 * m.corner), n),
-        "FV": vectors(0.02 * x * m.lips, 0.040 * m.upper * m.lips, 0, n) + tucked(mouth, edge=-0.436, front=(0.262, 0.292, 0.508)),
+        "FV": vectors(0.02 * x * m.lips, 0.028 * m.upper * m.lips, -0.030 * m.upper * m.lips, n)
+        + tucked(mouth, edge=-0.436, front=(0.262, 0.292, 0.508)),
         "wide": vectors(stretched_x, stretched_y, -0.055 * m.lips * m.corner - 0.020 * m.lips, n),
     }
 

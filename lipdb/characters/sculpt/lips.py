@@ -16,13 +16,14 @@ class LipMasks:
     """How much of a movement each vertex makes, 0 to 1.
 
     *lips* the lips and what is next to them, *around* a wider ring, *edge* where the lips meet and the red of them,
-    *rim* only where they meet; *upper*, *lower* and *corner* tell the parts of the mouth.
+    *rim* and *seam* closer and closer to where they meet; *upper*, *lower* and *corner* tell the parts of the mouth.
     """
 
     lips: Floats
     around: Floats
     edge: Floats
     rim: Floats
+    seam: Floats
     upper: Floats
     lower: Floats
     corner: Floats
@@ -32,9 +33,9 @@ class LipMasks:
         """The masks of one mouth; inside of it movements fade towards the throat."""
         fade = 1 - 0.8 * smoothstep(0.1, 0.6, mouth.depth)
         soon = 1 - smoothstep(0.2, 0.7, mouth.depth)
-        lips, around, edge, rim = (np.exp(-((mouth.mu / width) ** 2)) for width in (0.62, 1.0, 0.30, 0.22))
+        lips, around, edge, rim, seam = (np.exp(-((mouth.mu / width) ** 2)) for width in (0.62, 1.0, 0.30, 0.22, 0.14))
         upper, lower = np.clip(mouth.sine, 0, 1) ** 0.7, np.clip(-mouth.sine, 0, 1) ** 0.7
-        return cls(lips * fade, around * fade, edge * soon, rim * soon, upper, lower, np.abs(mouth.cosine) ** 3)
+        return cls(lips * fade, around * fade, edge * soon, rim * soon, seam * soon, upper, lower, np.abs(mouth.cosine) ** 3)
 
 
 def vectors(x: Floats | float, y: Floats | float, z: Floats | float, count: int) -> Floats:
