@@ -194,6 +194,15 @@ def test_a_character_of_pictures_has_no_glb(tmp_path: Path) -> None:
         flat_performance(tmp_path).save(tmp_path / "a.glb")
 
 
+def test_silence_is_shown_by_the_rest_shape_that_the_character_has(take: Performance, tmp_path: Path) -> None:
+    flat = flat_performance(tmp_path)
+    assert (take.rest, flat.rest) == ("X", "X")
+    (tmp_path / "flat" / "pictures" / "X.svg").rename(tmp_path / "flat" / "pictures" / "rest.svg")
+    blair = replace(flat, character=replace(flat.character))
+    assert blair.rest == "rest"
+    assert replace(blair, track=Track(np.zeros((30, 1)), ("open",), 60.0)).cues() == [(0.0, 0.5, "rest")]
+
+
 def test_every_format_gives_the_same_bytes_again(take: Performance, tmp_path: Path) -> None:
     for suffix in sorted(set(plugins.exporters()) - {".mp4", ".webp"}):
         take.save(tmp_path / f"one{suffix}")

@@ -67,8 +67,10 @@ class GLPainter:
         # What changes from one picture to the next is mostly the mouth: the rest stands in the frame buffer already.
         GL.glEnable(GL.GL_SCISSOR_TEST)
         GL.glScissor(*box)
-        picture: NDArray[np.uint8] = self._renderer.render(self._scene, pyrender().RenderFlags.OFFSCREEN)
-        GL.glDisable(GL.GL_SCISSOR_TEST)
+        try:
+            picture: NDArray[np.uint8] = self._renderer.render(self._scene, pyrender().RenderFlags.OFFSCREEN)
+        finally:
+            GL.glDisable(GL.GL_SCISSOR_TEST)
         return picture
 
     def close(self) -> None:
