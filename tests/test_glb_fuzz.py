@@ -1,17 +1,26 @@
 """Damaged and hostile glTF files give a mesh or a `MeshError`, never anything else, and no great use of memory."""
 
 import copy
+import io
 import json
 import tracemalloc
 
+import numpy as np
 import pytest
 from glb_cases import Builder, container
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from lipdb.characters.gltf_read import parse_glb
 from lipdb.characters.mesh import Mesh
 from lipdb.errors import MeshError
+
+
+def picture():
+    file = io.BytesIO()
+    Image.new("RGB", (2, 2), (200, 100, 50)).save(file, "PNG")
+    return file.getvalue()
 
 
 def rich():
@@ -19,6 +28,10 @@ def rich():
     builder = Builder(("jawOpen", "mouthSmile"))
     builder.content["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1]}}]
     builder.primitive["material"] = 0
+    builder.content["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+    builder.content["textures"] = [{"source": 0}]
+    builder.content["images"] = [{"bufferView": builder.view(np.frombuffer(picture(), "u1"))}]
+    builder.primitive["attributes"]["TEXCOORD_0"] = builder.accessor(np.zeros((4, 2), "<f4"), "VEC2")
     builder.content["nodes"] = [{"children": [1], "rotation": [0, 0, 0, 1]}, {"mesh": 0, "scale": [1, 1, 1], "skin": 0}]
     builder.content["skins"] = [{"joints": [0]}]
     groups = [{"presetName": "a", "binds": [{"mesh": 0, "index": 0, "weight": 50}]}]
@@ -54,7 +67,9 @@ def places(value, path=()):
 
 
 def test_the_file_that_is_damaged_below_is_a_good_one():
-    assert outcome(GOOD).shape_names == ("jawOpen", "mouthSmile", "ou", "aa")
+    mesh = outcome(GOOD)
+    assert mesh.shape_names == ("jawOpen", "mouthSmile", "ou", "aa")
+    assert np.allclose(mesh.parts[0].colours[0] * 255, [200, 100, 50])
 
 
 @settings(max_examples=400, deadline=None)

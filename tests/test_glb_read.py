@@ -1,10 +1,12 @@
 """Faces from glTF files: everything a file may hold, and everything that may be wrong with it."""
 
+import io
 import struct
 
 import numpy as np
 import pytest
 from glb_cases import FACES, JAW, SQUARE, Builder, container
+from PIL import Image
 
 from lipdb.characters.gltf_read import parse_glb, read_glb
 from lipdb.errors import MeshError
@@ -125,6 +127,28 @@ def test_the_base_colour_becomes_srgb_and_vertex_colours_tint_it():
     (part,) = read(builder).parts
     assert np.allclose(part.colours, [1, 0.502, 0], atol=1e-3)
     assert part.roughness == 0.9
+
+
+def with_texture(builder, data):
+    places = builder.accessor(np.array([[0.1, 0.1], [0.9, 0.1], [1.9, 0.9], [-0.9, 0.9]], "<f4"), "VEC2")
+    builder.primitive["attributes"]["TEXCOORD_0"] = places
+    builder.content["images"] = [{"bufferView": builder.view(np.frombuffer(data, "u1")), "mimeType": "image/png"}]
+    builder.content["textures"] = [{"source": 0}]
+    builder.content["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    builder.primitive["material"] = 0
+    return read(builder).parts[0].colours
+
+
+def test_a_texture_colours_each_vertex():
+    picture = Image.fromarray(np.array([[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [255, 255, 255]]], np.uint8))
+    file = io.BytesIO()
+    picture.save(file, "PNG")
+    assert np.allclose(with_texture(Builder(), file.getvalue()), [[1, 0, 0], [0, 1, 0], [1, 1, 1], [0, 0, 1]], atol=1e-6)
+
+
+@pytest.mark.parametrize("data", [b"no picture", b"\x89PNG\r\n\x1a\n" + bytes(40), b"GIF89a" + bytes(40)])
+def test_a_texture_that_is_no_picture_leaves_grey(data):
+    assert np.ptp(with_texture(Builder(), data)) < 1e-9
 
 
 @pytest.mark.parametrize(("mode", "count"), [(5, 2), (6, 2)])

@@ -1,6 +1,6 @@
 """Read a face from a glTF file: binary (.glb), VRM 0 and 1 (.vrm), or text (.gltf).
 
-What a part looks like comes from its material's base colour and its vertex colours; textures are not drawn.
+What a part looks like comes from its material's base colour, its texture at each vertex, and its vertex colours.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from lipdb.characters.gltf_accessor import accessor_count, read_floats, read_indices
 from lipdb.characters.gltf_expressions import with_expressions
 from lipdb.characters.gltf_file import GltfFile, open_gltf, parse_gltf
+from lipdb.characters.gltf_look import surface_look
 from lipdb.characters.gltf_scene import Placed, placed_meshes
 from lipdb.characters.mesh import Floats, Ints, Mesh, Part
 
@@ -81,7 +82,7 @@ def _part(file: GltfFile, primitive: Mapping[str, Any], names: list[str], placed
             moved = read_floats(file, entry["POSITION"], "VEC3", count=len(own)) @ turn.T
             shapes[shape] = shapes[shape] + moved if shape in shapes else moved
     positions = own @ turn.T + placed.place[:3, 3]
-    colours, roughness = _look(file, primitive, attributes, len(own), where)
+    colours, roughness = surface_look(file, primitive, attributes, len(own), where)
     return Part(name, positions, faces, colours, roughness, 0.3, {shape: moved for shape, moved in shapes.items() if moved.any()})
 
 
@@ -127,20 +128,3 @@ def _text(value: Any) -> str:
         return ""
     printable = "".join(c if c.isprintable() else " " for c in value)
     return "_".join(printable.split())[:LONGEST_NAME]
-
-
-def _look(file: GltfFile, primitive: Mapping[str, Any], attributes: Mapping[str, Any], count: int, where: str) -> tuple[Floats, float]:
-    """Colours ``(count, 3)`` in sRGB and roughness, from the material's factors and the vertex colours."""
-    factor, roughness = [0.8, 0.8, 0.8, 1.0], 0.6
-    if "material" in primitive:
-        material = file.entry("materials", primitive["material"])
-        surface = file.object(material.get("pbrMetallicRoughness", {}), f"the material of {where}")
-        factor = file.numbers(surface.get("baseColorFactor", [1, 1, 1, 1]), 4, f"the base colour of {where}")
-        rough = surface.get("roughnessFactor", 0.6)
-        roughness = float(np.clip(file.numbers([rough], 1, f"the roughness of {where}")[0], 0, 1))
-    linear = np.tile(np.array(factor[:3]), (count, 1))
-    if "COLOR_0" in attributes:
-        kind = "VEC4" if file.entry("accessors", attributes["COLOR_0"]).get("type") == "VEC4" else "VEC3"
-        linear *= read_floats(file, attributes["COLOR_0"], kind, count=count)[:, :3]
-    linear = np.clip(linear, 0, 1)
-    return np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055), roughness
