@@ -13,9 +13,9 @@ import numpy as np
 from lipdb.engine.finish import Order, Watch, control, enforce, order_of
 from lipdb.engine.gather import gather, stitch
 from lipdb.engine.limits import peaks, spline
+from lipdb.engine.lines import Line
 from lipdb.engine.smooth import smooth
 from lipdb.engine.table import Bools, CurveTable, Floats, Ints
-from lipdb.engine.lines import Line
 from lipdb.engine.timeline import CONTROL_RATE, Timeline, lay
 from lipdb.errors import CurveError
 from lipdb.poses import PoseSet
@@ -61,18 +61,14 @@ class Player:
         self.order: Order = order_of(pose_set)
         self.shuts: Bools = np.any(table.closing[pose_set.must_reach], axis=0)
         self.window = pose_set.window * CONTROL_RATE
-        self.pairs = timeline.pairs
-
-    def margin(self, rate: float) -> int:
-        """Points, *rate* a second, that constraints and speed limits can reach across."""
-        groups = (slice(0, self.order.held), *self.order.levels)
-        return sum(4 + math.ceil(rate / float(self.order.speed[rows].min(initial=rate))) for rows in groups)
+        self.margin = _margin(self.order, CONTROL_RATE) + 2 * math.ceil(self.window) + 4
+        again = any(self.order.outrun) or not timeline.rate.on_grid
+        self.frame_margin = _margin(self.order, timeline.rate.fps) if again else 0
 
     def control(self, begin: int, end: int, watch: Watch | None = None) -> tuple[Floats, int]:
         """Control points ``(P, T)``, true from cell *begin* to *end* and more on both sides; the cell of the first."""
-        margin = self.margin(CONTROL_RATE) + 2 * math.ceil(self.window) + 4
-        low, high = begin - margin, end + margin
-        pairs = self.pairs.between(low, high)
+        low, high = begin - self.margin, end + self.margin
+        pairs = self.line.pairs.between(low, high)
         if len(pairs.base):
             low, high = min(low, int(pairs.base[0])), max(high, int(pairs.stop[-1]) + 2)
         keys = gather(self.table, pairs.pair, pairs.base, pairs.rest, pairs.first, pairs.second, pairs.step)
@@ -89,8 +85,7 @@ class Player:
     def frames(self, begin: int, end: int, watch: Watch | None = None) -> Floats:
         """Weights by row ``(P, end - begin)`` at frames *begin* to *end* of the axis."""
         rate = self.line.rate
-        margin = self.margin(rate.fps) if any(self.order.outrun) or not rate.on_grid else 0
-        low, high = max(begin - margin, 0), min(end + margin, self.line.axis)
+        low, high = max(begin - self.frame_margin, 0), min(end + self.frame_margin, self.line.axis)
         if rate.on_grid:
             points, zero = self.control(low, high, watch)
             frames = spline(points[:, low - zero - 1 : high - zero + 1])[:, 1:-1]
@@ -119,6 +114,12 @@ class Player:
         return frames
 
 
+def _margin(order: Order, rate: float) -> int:
+    """Points, *rate* a second, that constraints and speed limits can reach across."""
+    groups = (slice(0, order.held), *order.levels)
+    return sum(4 + math.ceil(rate / float(order.speed[rows].min(initial=rate))) for rows in groups)
+
+
 def animate_lines(
     table: CurveTable, pose_set: PoseSet, lines: Sequence[Line], *, fps: float = 60, frames: Sequence[int] | None = None
 ) -> Tracks:
@@ -136,8 +137,8 @@ def animate_lines(
     timeline = lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest)
     player = Player(table, pose_set, timeline)
     axis = np.empty((len(pose_set.poses), timeline.axis))
-    cuts = np.linspace(0, timeline.axis, 1 + max(1, round(timeline.axis / CHUNK))).astype(np.int64).tolist()
-    for begin, end in pairwise(cuts):
+    parts = max(1, round(timeline.axis / CHUNK))
+    for begin, end in pairwise(timeline.axis * part // parts for part in range(parts + 1)):
         for pose, weights in zip(player.order.pose, player.frames(begin, end), strict=True):
             axis[pose, begin:end] = weights
     return Tracks(axis, timeline.origin, timeline.frames, pose_set.poses, fps)

@@ -69,7 +69,7 @@ class CurveTable:
         count, pairs = len(names), len(names) ** 2
         parts: list[tuple[Floats, Floats, Floats, int, int]] = []
         reach = np.zeros((len(poses), count))
-        for number, p in product(range(pairs), range(len(poses))):
+        for number, p in product(range(1, pairs), range(len(poses))):  # between silence and silence there is rest
             a, b = divmod(number, count)
             curve = curves.get((names[a], names[b], poses[p]))
             if curve is not None and curve.keys:

@@ -14,12 +14,14 @@ from functools import cache
 
 import numpy as np
 
-from lipdb.engine.lines import REST, Line, flat, merged, rested
+from lipdb.engine.lines import Line, flat
 from lipdb.engine.table import CurveTable, Floats, Ints
 from lipdb.errors import InputError, ScheduleError
 
 CONTROL_RATE = 60
 """Control points of the B-spline a second: smoothing is fixed in time, whatever the frame rate."""
+REST = 250_000
+"""The most of a pause, in microseconds, that a pair with silence covers; also the silence put before and after speech."""
 SPLIT = 1_000_000
 """Pauses this long, in microseconds, part a line into runs that each lay out their control points anew."""
 
@@ -127,60 +129,78 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
     one over *slowest* seconds. Raises `InputError`, `ScheduleError` and `CurveError`.
     """
     rate = rate_of(fps)
-    (line, phone, start, end), sizes = merged(*rested(*flat(table, lines)))
-    asked = _asked(rate, end[sizes.cumsum() - 1], frames)
-    inner = np.ones(len(line), dtype=bool)
-    inner[sizes.cumsum() - 1] = False
-    left = inner.nonzero()[0]
-    length = end - start
-    np.minimum(length, REST, out=length, where=phone == 0)
-    length *= rate.microsecond
-    first, second, border = length[left], length[left + 1], end[left] * rate.microsecond
-    at = _runs(rate, sizes, start, end, phone, left)
-    count = np.diff(at, append=len(left))
-    anchor = border[at] // rate.frame
-    begin = border - first - (anchor * rate.frame).repeat(count)
-    tail = at + count - 1
-    finish = begin[tail] + first[tail] + second[tail]
+    edges, phone, sizes = flat(table, lines)
+    tail = sizes.cumsum() + np.arange(len(sizes))
+    head = tail - sizes
+    left, right, first, second = _borders(edges, phone, head, tail)
+    at = _runs(rate, edges, left, right, head)
+    for length in (edges, first, second):
+        length *= rate.microsecond
+    asked = _asked(rate, edges[tail] + second[tail], frames)
+    anchor = edges[at + (right[at] == 0)] // rate.frame
+    count = np.concatenate((at[1:], [len(edges)])) - at
+    begin = edges - first
+    begin -= (anchor * rate.frame).repeat(count)
+    finish = (begin + first + second)[at + count - 1]
+    begins, line = begin[at], head.searchsorted(at, side="right") - 1
     pad = 2 + math.ceil(max(window * CONTROL_RATE / 2, CONTROL_RATE / slowest + 3))
-    low, high = begin[at] // rate.control - pad, _up(finish, rate.control) + pad + 1
+    low, high = begins // rate.control - pad, _up(finish, rate.control) + pad + 1
     pad = 2 + math.ceil(max(window * fps / 2, fps / slowest + 3 + 3 * fps / CONTROL_RATE))
-    low_frame, high_frame = begin[at] // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
-    of_run = line[left[at]]
+    low_frame, high_frame = begins // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
     first_frame, last_frame = np.zeros_like(asked), asked.copy()
-    np.minimum.at(first_frame, of_run, low_frame)
-    np.maximum.at(last_frame, of_run, high_frame)
+    np.minimum.at(first_frame, line, low_frame)
+    np.maximum.at(last_frame, line, high_frame)
     last_frame -= first_frame
     origin = last_frame.cumsum() - last_frame - first_frame
-    frame = origin[of_run] + anchor
+    frame = origin[line] + anchor
     cell = frame if rate.on_grid else (high - low).cumsum() - high
     whole, rest = np.divmod(begin, rate.control)
     whole += cell.repeat(count)
     stop = whole + _up(rest + first + second, rate.control)
-    pairs = Pairs(rate.control, phone[left] * len(table.phones) + phone[left + 1], whole, rest, first, second, stop)
-    shares = frame - anchor + _shares(low_frame, high_frame, of_run)
+    left *= len(table.phones)
+    left += right
+    pairs = Pairs(rate.control, left, whole, rest, first, second, stop)
+    shares = frame - anchor + _shares(low_frame, high_frame, line)
     return Timeline(rate, pairs, cell, frame, shares, cell + low, cell + high, origin, asked, int(last_frame.sum()))
 
 
+def _borders(edges: Ints, phone: Ints, head: Ints, tail: Ints) -> tuple[Ints, Ints, Ints, Ints]:
+    """The phones before and after every edge, and how much of each belongs to their pair (microseconds).
+
+    Before the first edge of a line, *head*, and after its last one, *tail*, comes rest, where there is no silence already.
+    """
+    inner = np.ones(len(edges), dtype=bool)
+    inner[tail] = False
+    start = inner.nonzero()[0]
+    end = start + 1
+    length = edges[end] - edges[start]
+    np.minimum(length, REST, out=length, where=phone == 0)
+    left, right, first, second = np.zeros((4, len(edges)), dtype=np.int64)
+    left[end], first[end] = phone, length
+    right[start], second[start] = phone, length
+    first[head], second[tail] = REST * (right[head] != 0), REST * (left[tail] != 0)
+    return left, right, first, second
+
+
+def _runs(rate: Rate, edges: Ints, left: Ints, right: Ints, head: Ints) -> Ints:
+    """The first pair of each run: of each line, and after long pauses where frames do not fall on one grid of cells."""
+    if rate.aligned:
+        return head
+    opens = (left == 0) & (right != 0)
+    opens[1:] &= edges[1:] - edges[:-1] >= SPLIT
+    opens[head] = True
+    runs: Ints = opens.nonzero()[0]
+    return runs
+
+
 def _asked(rate: Rate, end: Ints, frames: Sequence[int] | None) -> Ints:
-    """How many frames each line gets, which ends at *end* microseconds. Raises `ScheduleError`."""
+    """How many frames each line gets, which ends at *end* units. Raises `ScheduleError`."""
     if frames is None:
-        return np.maximum(_up(end * rate.microsecond, rate.frame) + 1, 0)
+        return np.maximum(_up(end, rate.frame) + 1, 0)
     asked = np.array(frames, dtype=np.int64)
     if len(asked) != len(end) or (asked < 0).any():
         raise ScheduleError(f"{asked.min(initial=0)} frames asked for in {len(asked)} of {len(end)} lines; ask for 0 or more in each")
     return asked
-
-
-def _runs(rate: Rate, sizes: Ints, start: Ints, end: Ints, phone: Ints, left: Ints) -> Ints:
-    """The first pair of each run: of each line, and after long pauses where frames do not fall on one grid of cells."""
-    counts = sizes - 1
-    at = (counts.cumsum() - counts)[counts > 0]
-    if rate.aligned:
-        return at
-    long = (phone[left] == 0) & (end[left] - start[left] >= SPLIT)
-    long[at] = True
-    return long.nonzero()[0]
 
 
 def _shares(begin: Ints, end: Ints, line: Ints) -> Ints:
