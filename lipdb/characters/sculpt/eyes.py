@@ -21,7 +21,7 @@ IRIS = srgb("#5f8a5a")
 # Angles around the middle of the ball, in radians: sideways (outwards positive) and up.
 ALMOND_MIDDLE, ALMOND_HALF = 0.04, 0.80
 UPPER_LID, LOWER_LID, CLOSED, TILT = 0.47, -0.38, -0.20, 0.03
-WINDOW = Window(form, EYE, EYE_RADIUS, middle=0.19, half=1.05, up=1.20, down=-1.10)
+WINDOW = Window(form, EYE, EYE_RADIUS, middle=0.19, half=1.05, up=1.20, down=-1.00)
 RINGS = (0.0, 0.05, 0.12, 0.21, 0.32, 0.45, 0.60, 0.78, 1.0)
 
 
@@ -62,7 +62,7 @@ def lids(head: Floats, head_shapes: Mapping[str, Floats], columns: int = 40) -> 
     normals = gradient(form, skin)
     colours = skin_colour(skin, normals)
     crease = bump(rings.ring - 0.38, 0.055) * np.clip(rings.sine, 0, 1) ** 0.5
-    skin += normals * (0.0025 + 0.004 * bump(rings.ring, 0.06) - 0.010 * crease)[:, None]
+    skin += normals * (0.0025 + 0.004 * bump(rings.ring, 0.06) - 0.005 * crease)[:, None]
     blink = _blink(rings) + normals * 0.0025
     colours = _lid_colours(colours, rings, crease)
     edge = EYE + (skin[:columns] - EYE) * (0.985 / 1.09)

@@ -29,8 +29,8 @@ def bump(distance: Floats | float, width: Floats | float) -> Floats:
 
 def near(points: Floats, centre: Point, spread: Point) -> Floats:
     """A bell of height 1 at *centre*, *spread* wide along each axis; both sides of x at once when *centre* is off it."""
-    mirrored_points = mirrored(points) if centre[0] > 0 else points
-    return np.asarray(np.exp(-0.5 * (((mirrored_points - np.asarray(centre)) / np.asarray(spread)) ** 2).sum(-1)))
+    sides = [np.asarray(centre)] if centre[0] == 0 else [np.asarray(centre), np.asarray(centre) * np.array([-1, 1, 1])]
+    return np.asarray(sum(np.exp(-0.5 * (((points - side) / np.asarray(spread)) ** 2).sum(-1)) for side in sides))
 
 
 def mix(a: Floats | float, b: Floats | float, t: Floats | float) -> Floats:

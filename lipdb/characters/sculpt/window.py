@@ -60,7 +60,7 @@ def sink(window: Window, positions: Floats, faces: Ints, *, behind: Bools) -> tu
     """
     reach = window.reach(positions)
     hidden = behind & (reach < 1)
-    depth = np.where(hidden, 0.75, 1 - 0.012 * smoothstep(0.92, 0.80, reach) - 0.06 * smoothstep(0.80, 0.65, reach))
+    depth = np.where(hidden, 0.75, 1 - 0.010 * smoothstep(0.95, 0.75, reach) - 0.06 * smoothstep(0.74, 0.58, reach))
     sunk = window.centre + (positions - window.centre) * depth[:, None]
     covered = (reach < 0.82) | hidden
     return sunk, faces[~covered[faces].all(axis=1)]
