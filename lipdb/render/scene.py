@@ -21,7 +21,7 @@ FIELD_OF_VIEW = 0.42
 VIEWS = {"front": 0.0, "three-quarter": 0.6, "side": 1.35}
 """How far the camera walks round the character, in radians."""
 
-ROOM = 1.45
+ROOM = 1.2
 """The picture shows the part of a mesh that its shapes move, times this much."""
 MARGIN = 1.06
 
