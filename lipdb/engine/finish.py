@@ -20,8 +20,8 @@ from lipdb.engine.limits import hold_peaks, limit_above, limit_below
 from lipdb.engine.table import Floats, Ints
 from lipdb.poses import PoseSet
 
-Watch = Callable[[str, slice, Floats], None]
-"""Called after each stage with its name, the rows that it worked on, and all weights."""
+Watch = Callable[[str, slice, Floats, int], None]
+"""Called after each stage with its name, the rows that it worked on, all weights, and which point the first column is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,23 +65,26 @@ def constrain(weights: Floats, order: Order, rows: slice) -> None:
             np.minimum(weights[row], bound, out=weights[row])
 
 
-def control(weights: Floats, order: Order, *, rate: float, watch: Watch | None = None) -> None:
-    """Turn smoothed *weights* ``(P, T)``, *rate* points a second, into the spline's control points, in place."""
+def control(weights: Floats, order: Order, *, rate: float, watch: Watch | None = None, first: int = 0) -> None:
+    """Turn smoothed *weights* ``(P, T)``, *rate* points a second, into the spline's control points, in place.
+
+    *watch* is told that the first column is point *first*.
+    """
     most, held = order.speed / rate, slice(0, order.held)
     if order.held:
         hold_peaks(weights[held])
         if watch:
-            watch("constrained", held, weights)
+            watch("constrained", held, weights, first)
         limit_above(weights[held], most[held])
         if watch:
-            watch("limited", held, weights)
+            watch("limited", held, weights, first)
     for rows in order.levels:
         constrain(weights, order, rows)
         if watch:
-            watch("constrained", rows, weights)
+            watch("constrained", rows, weights, first)
         limit_below(weights[rows], most[rows])
         if watch:
-            watch("limited", rows, weights)
+            watch("limited", rows, weights, first)
 
 
 def enforce(frames: Floats, order: Order, *, fps: float, raised: bool) -> None:

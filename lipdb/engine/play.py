@@ -74,12 +74,12 @@ class Player:
         keys = gather(self.table, pairs.pair, pairs.base, pairs.rest, pairs.first, pairs.second, pairs.step)
         weights = stitch(self.table, keys, self.order.row, self.order.held, begin=low, width=high - low)
         if watch:
-            watch("stitched", slice(0, len(weights)), weights)
+            watch("stitched", slice(0, len(weights)), weights, low)
         borders = (pairs.rest + pairs.first) / pairs.step + (pairs.base - low)
         smooth(weights, self.window, self.order.held, borders, self.shuts[pairs.pair % len(self.table.phones)])
         if watch:
-            watch("smoothed", slice(0, len(weights)), weights)
-        control(weights, self.order, rate=CONTROL_RATE, watch=watch)
+            watch("smoothed", slice(0, len(weights)), weights, low)
+        control(weights, self.order, rate=CONTROL_RATE, watch=watch, first=low)
         return weights, low
 
     def frames(self, begin: int, end: int, watch: Watch | None = None) -> Floats:
@@ -92,7 +92,7 @@ class Player:
         else:
             frames = self.sampled(low, high, watch)
         if watch:
-            watch("splined", slice(0, len(frames)), frames)
+            watch("splined", slice(0, len(frames)), frames, low)
         enforce(frames, self.order, fps=rate.fps, raised=not rate.on_grid)
         return frames[:, begin - low : end - low]
 
@@ -120,6 +120,14 @@ def _margin(order: Order, rate: float) -> int:
     return sum(4 + math.ceil(rate / float(order.speed[rows].min(initial=rate))) for rows in groups)
 
 
+def prepared(table: CurveTable, pose_set: PoseSet, lines: Sequence[Line], *, fps: float, frames: Sequence[int] | None) -> Player:
+    """A player for *lines*; see `animate_lines`."""
+    if table.poses != pose_set.poses:
+        raise CurveError(f"the table of curves is for poses {', '.join(table.poses)}, not for those of pose set {pose_set.name!r}")
+    slowest = float(pose_set.speed.min(initial=np.inf, where=pose_set.must_reach))  # nothing else spreads
+    return Player(table, pose_set, lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest))
+
+
 def animate_lines(
     table: CurveTable, pose_set: PoseSet, lines: Sequence[Line], *, fps: float = 60, frames: Sequence[int] | None = None
 ) -> Tracks:
@@ -129,13 +137,10 @@ def animate_lines(
     *frames* asked for of each line; by default every frame up to the first at or after the end, where a line that does
     not end in silence gets 0.25 s of it. Raises `InputError`, `ScheduleError` and `CurveError` for what can't be played.
     """
-    if table.poses != pose_set.poses:
-        raise CurveError(f"the table of curves is for poses {', '.join(table.poses)}, not for those of pose set {pose_set.name!r}")
     if not len(lines):
         return Tracks(np.zeros((len(pose_set.poses), 0)), np.zeros(0, np.int64), np.zeros(0, np.int64), pose_set.poses, fps)
-    slowest = float(pose_set.speed.min())
-    timeline = lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest)
-    player = Player(table, pose_set, timeline)
+    player = prepared(table, pose_set, lines, fps=fps, frames=frames)
+    timeline = player.line
     axis = np.empty((len(pose_set.poses), timeline.axis))
     parts = max(1, round(timeline.axis / CHUNK))
     for begin, end in pairwise(timeline.axis * part // parts for part in range(parts + 1)):

@@ -112,6 +112,13 @@ class Timeline:
         whole, rest = np.divmod((frames - self.frame[run]) * self.rate.frame, self.rate.control)
         return np.clip(whole + self.cell[run], self.low[run] + 1, self.high[run] - 3), rest / self.rate.control
 
+    def seconds(self, cells: Ints) -> Floats:
+        """When each of *cells* is, for a timeline of one line."""
+        run = np.maximum(np.searchsorted(self.low, cells, side="right") - 1, 0)
+        units = (self.frame[run] - self.origin[0]) * self.rate.frame + (cells - self.cell[run]) * self.rate.control
+        seconds: Floats = units / self.rate.second
+        return seconds
+
     def nearest_frames(self, cells: Ints) -> Ints:
         """The frame of the axis nearest to each of *cells*."""
         if not len(self.cell):
