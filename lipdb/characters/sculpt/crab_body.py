@@ -61,9 +61,9 @@ def _colours(bare: Floats, normals: Floats, lip: Floats, taper: Floats) -> Float
     spots = np.max([near(bare, (x, y, z), (size, size, size)) for x, y, z, size in SPOTS], axis=0)
     colours = tint(colours, srgb("#f39a55"), smoothstep(0.35, 0.75, spots) * 0.8)
     colours = tint(colours, DARK, bump(lip - 1.15, 0.25) * taper * 0.30)
-    colours = tint(colours, LIP, smoothstep(1.1, 0.9, lip) * taper * 0.85)
-    colours = tint(colours, INSIDE, np.exp(-((lip / 0.50) ** 2)) * taper * 0.30)
-    colours = tint(colours, INSIDE, np.exp(-((lip / 0.22) ** 2)) * taper * 0.6)
+    colours = tint(colours, LIP, smoothstep(1.12, 0.88, lip) * mix(0.75, 0.85, taper))
+    colours = tint(colours, INSIDE, np.exp(-((lip / 0.50) ** 2)) * 0.30)
+    colours = tint(colours, INSIDE, np.exp(-((lip / 0.22) ** 2)) * 0.6)
     return np.asarray(colours * mix(0.50, 1, openness(form, bare, normals))[:, None])
 
 
