@@ -1,10 +1,12 @@
 """Predict the lips of recorded sentences: phone times in, opening and width of Robin's mouth out.
 
-usage: python benchmarks/grid_lips.py --data FOLDER -o predictions.csv [--phonesets FOLDER]
+usage: python benchmarks/grid_lips.py --data FOLDER -o predictions.csv [--phonesets FOLDER] [--targets FOLDER]
 
-FOLDER holds phones.csv.gz (utt, start, end, phone; seconds, ARPAbet) and mouth_25fps.csv.gz (utt, frame, inner_gap,
-inner_width, …). The result has a row a video frame: utt, frame, opening, width, measured between the inner lips of the
-human head's mesh. The measured lips are read by `Recording` for tuning and scoring; the predictions never see them.
+FOLDER holds phones.csv.gz (utt, start, end, phone, word, word_index; seconds, ARPAbet) and mouth_25fps.csv.gz (utt,
+frame, inner_gap, inner_width). The result has a row a video frame: utt, frame, opening, width, measured between the
+inner lips of the human head's mesh. With --targets, curves are generated from the parameters of that folder
+(benchmarks/articulation: the values before tuning) instead of taken from the curated data. The measured lips are read
+by `Recording` for tuning and scoring; the predictions never see them.
 """
 
 from __future__ import annotations
@@ -30,7 +32,7 @@ from lipdb.files import whole_file
 from lipdb.paths import phonesets_dir
 from lipdb.phones.phoneset import PhoneSet
 from lipdb.poses import PoseSet
-from lipdb.schedule import Schedule
+from lipdb.schedule import Phone, Schedule
 
 Floats = NDArray[np.float64]
 FPS, FRAMES = 25, 75
@@ -38,12 +40,11 @@ FPS, FRAMES = 25, 75
 
 @dataclass(frozen=True)
 class Recording:
-    """Sentences of one speaker: *names*, *schedules*, and per sentence the measured *lips* (75, 2), NaN where no face was found."""
+    """Sentences of one speaker: *names*, *schedules*, and measured *lips* (75, 2) of each, NaN where no face was found."""
 
     names: list[str]
     schedules: list[Schedule]
     lips: list[Floats]
-    words: list[list[str]]
 
     @classmethod
     def read(cls, folder: Path, phoneset: PhoneSet) -> Recording:
@@ -55,13 +56,14 @@ class Recording:
         for row in _rows(folder / "mouth_25fps.csv.gz"):
             if row["inner_gap"] and row["utt"] in lips and int(row["frame"]) < FRAMES:
                 lips[row["utt"]][int(row["frame"])] = float(row["inner_gap"]), float(row["inner_width"])
-        schedules = []
-        for utt in rows:
-            raw = Schedule.from_intervals(
-                ((float(row["start"]), float(row["end"]), row["phone"].upper()) for row in rows[utt]), language="en", notation="arpabet"
-            )
-            schedules.append(phoneset.resolve(raw)[0])
-        return cls(list(rows), schedules, [lips[utt] for utt in rows], [[row.get("word", "") for row in rows[utt]] for utt in rows])
+        return cls(list(rows), [phoneset.resolve(_schedule(rows[utt]))[0] for utt in rows], [lips[utt] for utt in rows])
+
+
+def _schedule(rows: Sequence[dict[str, str]]) -> Schedule:
+    words = {int(row["word_index"]): row["word"] for row in rows}
+    place = {index: n for n, index in enumerate(sorted(words))}
+    phones = [(float(row["start"]), float(row["end"]), Phone(row["phone"].upper(), word=place[int(row["word_index"])])) for row in rows]
+    return Schedule.from_intervals(phones, language="en", notation="arpabet", words=[words[index] for index in sorted(words)])
 
 
 def _rows(path: Path) -> list[dict[str, str]]:
@@ -97,8 +99,12 @@ def main() -> None:
     parser.add_argument("--data", type=Path, required=True, help="folder with phones.csv.gz and mouth_25fps.csv.gz")
     parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
     parser.add_argument("--phonesets", type=Path, help="curated data; the shipped ones by default")
+    parser.add_argument("--targets", type=Path, help="generate the curves from the targets/ and timing/ of this folder")
     options = parser.parse_args()
-    phoneset, book, pose_set = english(read_folder(phonesets_dir(options.phonesets)))
+    records = read_folder(phonesets_dir(options.phonesets))
+    if options.targets:
+        records = {path: rows for path, rows in records.items() if not path.endswith("curves/facefx.tsv")} | read_folder(options.targets)
+    phoneset, book, pose_set = english(records)
     recording = Recording.read(options.data, phoneset)
     lines = [schedule.common() for schedule in recording.schedules]
     table = book.table({phone for _, phones in lines for phone in phones})
