@@ -48,6 +48,10 @@ def test_pressed_lips_close_what_the_engine_lets_stand_beside_them(shape):
     assert mouth(lips_press=1)[0] == 0
 
 
+def test_pressed_lips_close_a_round_mouth_too():
+    assert mouth(lips_press=0.9, mouth_oo=1)[0] < 0.05 * mouth(mouth_open=1)[0]
+
+
 def test_bare_teeth_shows_both_rows():
     upper, lower = landmark(UPPER, bare_teeth=1)[1], landmark(LOWER, bare_teeth=1)[1]
     assert lower < points("teeth_upper", bare_teeth=1)[:, 1].min() < upper

@@ -79,9 +79,9 @@ def _shapes(mouth: MouthSurface) -> dict[str, Floats]:
     forward, rolled = vectors(0, 0, m.lips, n), -0.080 * m.seam - 0.010 * m.edge
     return {
         "mouth_open": vectors(-0.08 * x * m.lips, -0.30 * drop + 0.08 * m.upper * m.lips, -0.04 * drop, n),
-        "mouth_oo": pursed(mouth, hole=(0.085, 0.062), rim=(0.175, 0.160), lift=0.0) + 0.13 * forward,
+        "mouth_oo": pursed(mouth, hole=(0.085, 0.048), rim=(0.175, 0.155), lift=0.0) + 0.13 * forward,
         "bare_teeth": vectors(0.03 * x * m.lips, (0.060 * m.upper - 0.075 * m.lower) * m.lips, 0.03 * m.lips * (1 - m.corner), n),
-        "lips_press": vectors(0, (-0.038 * m.upper + 0.048 * m.lower) * m.edge, rolled * (1 - 0.4 * m.corner), n),
+        "lips_press": vectors(0, (-0.043 * m.upper + 0.056 * m.lower) * m.edge, rolled * (1 - 0.4 * m.corner), n),
         "smile": vectors(0.06 * side * corners, 0.14 * corners - 0.03 * m.lips * (1 - m.corner), -0.03 * corners, n),
         "frown": vectors(-0.01 * side * corners, -0.13 * corners + 0.03 * m.lips * (1 - m.corner), 0, n),
     }
