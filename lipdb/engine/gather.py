@@ -58,7 +58,7 @@ def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, w
     weight = table.weight.take(keys.index)
     if held:
         sharp = (start < held * width).nonzero()[0]
-        np.maximum.at(out, start[sharp] + np.rint(keys.place[sharp]).astype(np.int64), weight[sharp])
+        np.maximum.at(out, start[sharp] + np.floor(keys.place[sharp] + 0.5).astype(np.int64), weight[sharp])
     if len(start):
         _draw(out, start[:-1], keys.place, weight, table.joined.take(keys.index[:-1]))
     return out.reshape(len(row), width)
