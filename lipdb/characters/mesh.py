@@ -17,6 +17,9 @@ Bools = NDArray[np.bool_]
 DECIMALS = 5
 """Built coordinates are rounded to this, so that the last bits of another processor do not change a file."""
 
+UNSEEN = 3e-4
+"""A built vertex that a shape moves by less than this, of a head two units high, stays where it is."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
@@ -52,8 +55,9 @@ class Part:
                 )
 
     def rounded(self) -> Part:
-        """The same part with coordinates of `DECIMALS` decimals; shapes that move nothing are left out."""
-        shapes = {name: np.round(moved, DECIMALS) + 0.0 for name, moved in self.shapes.items()}
+        """The same part with coordinates of `DECIMALS` decimals, and without movements that nobody can see."""
+        seen = {name: np.abs(moved).max(axis=1, keepdims=True) > UNSEEN for name, moved in self.shapes.items()}
+        shapes = {name: np.asarray(np.round(np.where(seen[name], moved, 0.0), DECIMALS) + 0.0) for name, moved in self.shapes.items()}
         shapes = {name: moved for name, moved in shapes.items() if moved.any()}
         positions = np.asarray(np.round(self.positions, DECIMALS) + 0.0)
         colours = np.asarray(np.round(np.clip(self.colours, 0, 1), DECIMALS) + 0.0)

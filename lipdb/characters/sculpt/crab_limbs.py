@@ -1,10 +1,10 @@
-"""The crab's claws and legs; they do not move."""
+"""The crab's claws, which rise and sink with its brows, and its legs, which stand still."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from lipdb.characters.mesh import Part
+from lipdb.characters.mesh import Floats, Part
 from lipdb.characters.sculpt.crab_body import BELLY, DARK, SHELL
 from lipdb.characters.sculpt.eyes import mirror
 from lipdb.characters.sculpt.fields import smoothstep, tint
@@ -23,7 +23,13 @@ def _arm(rows: int = 13, columns: int = 14) -> Part:
     path = through([(0.95, -0.05, 0.2), (1.35, -0.20, 0.45), (1.50, 0.15, 0.62)], rows)
     radius = np.interp(np.linspace(0, 1, rows), [0, 0.5, 1], [0.13, 0.10, 0.12])
     positions, faces, along = tube(path, radius, columns)
-    return Part("arm_left", positions, faces, tint(SHELL, DARK, np.full(len(along), 0.15)), 0.4, 0.6)
+    return Part("arm_left", positions, faces, tint(SHELL, DARK, np.full(len(along), 0.15)), 0.4, 0.6, _gesture(along))
+
+
+def _gesture(share: Floats) -> dict[str, Floats]:
+    """How far a claw goes along with the brows, *share* of it at each point."""
+    up = np.stack([0.03 * share, 0.09 * share, 0 * share], axis=-1)
+    return {"brow_up": up, "brow_down": -0.8 * up}
 
 
 def _finger(name: str, size: tuple[float, float, float], bend: float, turn: float, x: float) -> Part:
@@ -38,7 +44,7 @@ def _finger(name: str, size: tuple[float, float, float], bend: float, turn: floa
     sideways, upright, deep = c * across + s * upwards, c * upwards - s * across, unit[:, 2] * 0.15 * slim
     positions = np.stack([x - sideways, height + upright, 0.64 + deep], axis=-1)
     faces = outward(positions, faces, positions - positions.mean(0))
-    return Part(name, positions, faces, tint(SHELL, BELLY, smoothstep(0.3, 1, unit[:, 1]) * 0.8), 0.35, 0.7)
+    return Part(name, positions, faces, tint(SHELL, BELLY, smoothstep(0.3, 1, unit[:, 1]) * 0.8), 0.35, 0.7, _gesture(np.ones(len(unit))))
 
 
 def _leg(number: int, rows: int = 13, columns: int = 9) -> Part:
