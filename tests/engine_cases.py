@@ -88,9 +88,9 @@ def random_table(rng, phones, poses, held=()) -> CurveTable:
     for a, b, pose in product(phones, phones, poses):
         if (a, b) == ("_", "_") or rng.random() < (0.6 if pose in held else 0.25):
             continue
-        # No keys that fall between two frames to the last digit: which frame takes those is a matter of rounding.
+        # Odd thousandths, so that no key falls halfway between two frames: which of them takes it is a matter of rounding.
         size = rng.integers(1, 7)
-        times = np.sort(np.where(rng.random(size) < 0.3, rng.integers(0, 3, size) / 2, np.round(rng.uniform(0, 1, size), 3)))
+        times = np.sort(np.where(rng.random(size) < 0.3, rng.integers(0, 3, size) / 2, rng.integers(0, 500, size) / 500 + 0.001))
         weights = np.round(rng.uniform(0, 1, len(times)) ** 0.5, 3)
         weights[(times <= 0.1) if a == "_" else (times < 0)] = 0
         weights[(times >= 0.9) if b == "_" else (times < 0)] = 0
@@ -157,8 +157,10 @@ def at_times(drawn, poses: int, times):
     out = np.zeros((poses, len(times)))
     for pose, xs, ys in drawn:
         inside = (times >= xs[0] - 1e-12) & (times <= xs[-1] + 1e-12)
-        for nudge in (-1e-12, 1e-12):  # both sides of a step
-            out[pose, inside] = np.maximum(out[pose, inside], np.round(np.interp(times[inside] + nudge, xs, ys) * 2**33) / 2**33)
+        out[pose, inside] = np.maximum(out[pose, inside], np.round(np.interp(times[inside], xs, ys) * 2**33) / 2**33)
+        for x, y in zip(xs, ys, strict=True):  # both sides of a step
+            on = np.abs(times - x) < 1e-12
+            out[pose, on] = np.maximum(out[pose, on], y)
     return out
 
 
