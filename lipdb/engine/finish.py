@@ -29,7 +29,7 @@ class Order:
     """A pose set's rows in the order in which they are worked out.
 
     *pose* ``(P,)`` is the pose of each row and *row* the other way round; *held* rows, the first, are must-reach poses;
-    *levels* are the rows of the other levels; *bounds* of each row are (higher row, threshold); *speed* ``(P, 1)`` by row;
+    *levels* are the rows of the other levels; *bounds* of each row are (threshold, higher rows); *speed* ``(P, 1)`` by row;
     *outrun* tells for each level whether a pose in it can be bounded by a faster one.
     """
 
@@ -37,7 +37,7 @@ class Order:
     row: Ints
     held: int
     levels: tuple[slice, ...]
-    bounds: tuple[tuple[tuple[int, float], ...], ...]
+    bounds: tuple[tuple[tuple[float, tuple[int, ...]], ...], ...]
     speed: Floats
     outrun: tuple[bool, ...]
 
@@ -50,17 +50,27 @@ def order_of(pose_set: PoseSet) -> Order:
     row[pose] = np.arange(len(pose))
     stops = np.cumsum([len(level) for level in pose_set.levels]).tolist()
     levels = tuple(slice(a, b) for a, b in pairwise(stops))
-    bounds = tuple(tuple((int(row[j]), c) for j, c in pose_set.bounds(int(i))) for i in pose)
+    bounds = tuple(_grouped([(c, int(row[j])) for j, c in pose_set.bounds(int(i))]) for i in pose)
     speed = pose_set.speed[pose][:, None]
-    outrun = tuple(any(speed[j] > speed[k] for k in range(rows.start, rows.stop) for j, _ in bounds[k]) for rows in levels)
+    outrun = tuple(
+        any(speed[j] > speed[k] for k in range(rows.start, rows.stop) for _, above in bounds[k] for j in above) for rows in levels
+    )
     return Order(pose, row, stops[0], levels, bounds, speed, outrun)
+
+
+def _grouped(bounds: list[tuple[float, int]]) -> tuple[tuple[float, tuple[int, ...]], ...]:
+    """(threshold, row) as (threshold, rows)."""
+    return tuple((c, tuple(row for other, row in bounds if other == c)) for c in sorted({c for c, _ in bounds}))
 
 
 def constrain(weights: Floats, order: Order, rows: slice) -> None:
     """Lower *rows* of *weights* in place to what the poses above leave them."""
     for row in range(rows.start, rows.stop):
-        for higher, threshold in order.bounds[row]:
-            bound = threshold - weights[higher]
+        for threshold, higher in order.bounds[row]:
+            bound = weights[higher[0]]
+            for other in higher[1:]:
+                bound = np.maximum(bound, weights[other])
+            bound = threshold - bound
             np.maximum(bound, 0, out=bound)
             np.minimum(weights[row], bound, out=weights[row])
 

@@ -24,9 +24,17 @@ from lipdb.track import Track
 CHUNK = 8192
 """Frames worked out at a time: few enough for the processor's cache, many enough for numpy."""
 
-# glibc hands freed memory back to the system and gets it anew page by page, which takes longer than the arithmetic here.
-# Freeing one large block, never touched, raises the size from which it does so (mallopt(3), M_MMAP_THRESHOLD).
-del (_block := [np.empty(2**21)])[:]
+
+def _keep_memory() -> None:
+    """Have glibc keep freed memory for the next array.
+
+    It hands larger blocks back to the system and gets them anew page by page, which takes longer than the arithmetic
+    here. Freeing one large block, never touched, raises the size from which it does so (mallopt(3), M_MMAP_THRESHOLD).
+    """
+    np.empty(2**21)
+
+
+_keep_memory()
 
 
 @dataclass(frozen=True, eq=False)
