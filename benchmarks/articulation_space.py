@@ -15,7 +15,8 @@ Floats = NDArray[np.float64]
 
 MEASURED = ("open", "W", "wide", "ShCh")
 """Poses that change the opening or the width of the mouth; the tongue and closed lips can't be learned from those."""
-CLOSING = {"bmp": "PBM", "f": "FV"}
+CLOSING = ("PBM", "FV")
+"""They change the opening too, but how they close is decided by what must hold (docs/curves.md), not by a fit."""
 WIDEST_OPEN = 0.5
 """The constraints of the pose set let the jaw open no further (constraints/facefx.tsv)."""
 LEAST_HUSH = 0.45
@@ -51,8 +52,6 @@ class Space:
     def _of_phone(self, n: int, phone: str) -> None:
         for pose in MEASURED:
             self._of_pose(n, self.start.poses.index(pose), phone, pose)
-        if phone in CLOSING:
-            self._insistence(n, self.start.poses.index(CLOSING[phone]), low=-1.0)
         for field in ("lead", "release"):
             self._add(field, n, 0, float(getattr(self.start, field)[n]), 0.35, 0.1, 2.0)
 
@@ -61,18 +60,15 @@ class Space:
         moved = max(target, glide) > 0
         if phone != SILENCE and (phone, pose) != ("bmp", "open") and (moved or pose != "ShCh"):
             low, high = LEAST_HUSH if (phone, pose) == ("sh", "ShCh") else 0.0, WIDEST_OPEN if pose == "open" else 1.0
-            # Lips that articulation leaves unrounded may round a little, no more.
-            sd = 0.06 if pose == "W" and not moved else 0.15
+            # A pose that articulation does not ask for may show a little, no more.
+            sd = 0.15 if moved or pose == "open" else 0.06
             self._add("target", n, p, target, sd, low, high)
             if glide != target:
                 self._add("glide", n, p, glide, sd, low, high)
         if pose != "ShCh":
-            self._insistence(n, p, low=-3.0)
+            self._add("insistence", n, p, float(np.log(self.start.insistence[n, p])), 0.7, -3.0, 3.0)
             for field in ("before", "after"):
                 self._add(field, n, p, float(getattr(self.start, field)[n, p]), 0.08, -0.4, 0.4)
-
-    def _insistence(self, n: int, p: int, *, low: float) -> None:
-        self._add("insistence", n, p, float(np.log(self.start.insistence[n, p])), 0.7, low, 3.0)
 
     def _add(self, field: str, n: int, p: int, start: float, sd: float, low: float, high: float) -> None:
         self.numbers.append(Number(field, n, p, start, sd, low, high))

@@ -29,7 +29,7 @@ STEPS = ((0.3, 8), (0.15, 8), (0.08, 6))
 
 def lips_only(pose_set: PoseSet) -> PoseSet:
     """*pose_set* without the poses that leave opening and width of the mouth as they are."""
-    moved = [n for n, pose in enumerate(pose_set.poses) if pose in (*MEASURED, *CLOSING.values())]
+    moved = [n for n, pose in enumerate(pose_set.poses) if pose in (*MEASURED, *CLOSING)]
     return replace(
         pose_set,
         poses=tuple(pose_set.poses[n] for n in moved),

@@ -146,7 +146,7 @@ def test_a_gap_behind_links_is_reported_as_one():
     records = {**SHIPPED, TABLE: {}, "targets/crab.tsv": {}, "timing/crab.tsv": {}}
     book = CurveBook.from_records(records, "crab", language="en", character="nobody")
     assert book.find("d", "ah", "mouth_open").layer == "generated via facefx"
-    assert [f.layer for f in book.report([("d", "ah")])][0] == "generated via facefx"
+    assert next(f.layer for f in book.report([("d", "ah")])) == "generated via facefx"
 
 
 def test_between_silence_and_silence_everything_rests():

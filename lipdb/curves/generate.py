@@ -17,7 +17,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from lipdb.curated.tsv import Records
+from lipdb.curated.tsv import Records, Rows
 from lipdb.curves.curve import Curve, CurveKey
 from lipdb.curves.keys import DECIMALS, Keys
 from lipdb.errors import CurveError
@@ -46,6 +46,7 @@ class Targets:
     diphthongs). *insistence*, shape (N, P), above 0: how strongly it wants that. *before* and *after*, shape (N, P): what
     it adds to the target of the phone before and of the phone after it. *lead* and *release*, shape (N,): how far it
     reaches into a neighbour before its start and after its end; 1 is all of a neighbour that insists on nothing.
+    *must_reach*, shape (P,): poses whose targets are reached by the middle of the phone, whoever stands beside it.
     *sources* names source and licence of the numbers by phone and pose (no pose: of lead and release).
     """
 
@@ -58,6 +59,7 @@ class Targets:
     after: Array
     lead: Array
     release: Array
+    must_reach: NDArray[np.bool_]
     sources: Mapping[tuple[str, str], Source] = field(default_factory=dict)
 
     @classmethod
@@ -70,15 +72,12 @@ class Targets:
         timing = {phone: row for (phone,), row in records.get(f"timing/{pose_set}.tsv", {}).items()}
         phones = tuple(sorted({phone for phone, _ in rows} & timing.keys()))
         poses = tuple(sorted({pose for _, pose in rows}))
-        numbers = np.zeros((len(NUMBERS), len(phones), len(poses)))
-        numbers[NUMBERS.index("insistence")] = 1.0
-        for (n, phone), (p, pose) in product(enumerate(phones), enumerate(poses)):
-            if row := rows.get((phone, pose)):
-                numbers[:, n, p] = [float(row[name] or (row["target"] if name == "glide" else 0)) for name in NUMBERS]
-        reach = np.array([[float(timing[phone][name]) for phone in phones] for name in ("lead", "release")]).reshape(2, -1)
-        sources = {(row["phone"], row["pose"]): (row["source"], row["licence"]) for row in rows.values()}
-        sources |= {(phone, ""): (row["source"], row["licence"]) for phone, row in timing.items()}
-        targets = cls(phones, poses, **dict(zip(NUMBERS, numbers, strict=True)), lead=reach[0], release=reach[1], sources=sources)
+        lead, release = (np.array([float(timing[phone][name]) for phone in phones]) for name in ("lead", "release"))
+        held = {pose for (pose,), row in records.get(f"poses/{pose_set}.tsv", {}).items() if row["must_reach"] == "yes"}
+        must_reach = np.array([pose in held for pose in poses], dtype=bool)
+        sources = {(row["phone"], row.get("pose", "")): (row["source"], row["licence"]) for row in (*rows.values(), *timing.values())}
+        numbers = _numbers(rows, phones, poses)
+        targets = cls(phones, poses, **numbers, lead=lead, release=release, must_reach=must_reach, sources=sources)
         targets.check(pose_set)
         return targets
 
@@ -93,6 +92,16 @@ class Targets:
             raise CurveError(f"timing/{pose_set}.tsv: {self.phones[n]}: lead and release can't be negative")
 
 
+def _numbers(rows: Rows, phones: tuple[str, ...], poses: tuple[str, ...]) -> dict[str, Array]:
+    """The columns of targets/ as arrays (N, P); what a row leaves out adds nothing, and a phone without glide stays."""
+    numbers = np.zeros((len(NUMBERS), len(phones), len(poses)))
+    numbers[NUMBERS.index("insistence")] = 1.0
+    for (n, phone), (p, pose) in product(enumerate(phones), enumerate(poses)):
+        if row := rows.get((phone, pose)):
+            numbers[:, n, p] = [float(row[name] or (row["target"] if name == "glide" else 0)) for name in NUMBERS]
+    return dict(zip(NUMBERS, numbers, strict=True))
+
+
 def shapes(targets: Targets, left: NDArray[np.intp], right: NDArray[np.intp]) -> tuple[Array, Array]:
     """Key times and weights of the pairs *left* → *right* (indices into the phones, shape (M,)).
 
@@ -105,6 +114,8 @@ def shapes(targets: Targets, left: NDArray[np.intp], right: NDArray[np.intp]) ->
     share = targets.insistence[right] / (targets.insistence[left] + targets.insistence[right])
     start = np.clip(BORDER - targets.lead[right][:, None] * share / 2, 0, BORDER - SHORTEST / 2)
     end = np.clip(BORDER + targets.release[left][:, None] * (1 - share) / 2, BORDER + SHORTEST / 2, 1)
+    start = np.where(targets.must_reach & (a > b), np.maximum(start, LEFT_MIDDLE), start)
+    end = np.where(targets.must_reach & (b > a), np.minimum(end, RIGHT_MIDDLE), end)
     times = np.stack(
         [
             np.minimum(LEFT_MIDDLE - HANDOVER, start),
