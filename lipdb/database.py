@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 from lipdb import plugins
+from lipdb.decisions import Cause, PairUse
 from lipdb.errors import InputError
 from lipdb.line import Line
-from lipdb.schedule import SILENCE
+from lipdb.schedule import MICROSECONDS, SILENCE
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -22,50 +22,20 @@ if TYPE_CHECKING:
     from lipdb.characters.character import Character
     from lipdb.curated.tsv import Records, Row
     from lipdb.curves.curve import Curve, CurveKey
-    from lipdb.curves.lookup import CurveBook, Found
+    from lipdb.curves.lookup import CurveBook
     from lipdb.performance import Performance
     from lipdb.phones.phoneset import PhoneSet
     from lipdb.poses import PoseSet
     from lipdb.schedule import Schedule
+    from lipdb.sound import Sound
     from lipdb.speech.voice import Voice
     from lipdb.store import Edit, Store
 
 DEFAULT_CHARACTER = "robin"
 DEFAULT_LANGUAGE = "en"
 DEFAULT_FPS = 60.0
-
-
-@dataclass(frozen=True, slots=True)
-class PairUse:
-    """A phone pair that a line needs: how often, and the winning curve of every pose."""
-
-    left: str
-    right: str
-    count: int
-    curves: Mapping[str, Found]
-
-    @property
-    def missing(self) -> list[str]:
-        """The poses whose curve no table has: it was made for the moment."""
-        return [pose for pose, found in self.curves.items() if found.fallback]
-
-    @property
-    def gap(self) -> bool:
-        """Whether the curve of some pose is neither authored nor fitted: work for an artist."""
-        return any(found.curve.origin not in ("authored", "fitted") for found in self.curves.values())
-
-    def to_row(self) -> dict[str, Any]:
-        """Plain data for a listing."""
-        moving = [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
-        return {
-            "left": self.left,
-            "right": self.right,
-            "count": self.count,
-            "origin": sorted({found.curve.origin for found in moving}),
-            "layer": sorted({found.layer for found in moving}),
-            "poses": [pose for pose, found in self.curves.items() if found.curve.keys],
-            "missing": self.missing,
-        }
+SHORT = 0.25
+"""Seconds that a recording may lack at its end before that is said."""
 
 
 def open(url: str | None = None, *, phonesets: str | Path | None = None) -> Database:
@@ -198,6 +168,8 @@ class Database:
         *tier* names the tier of phones, *notation* the symbols that it uses; both are found when not given. Raises as
         `say` does, and `ScheduleError` for times that can't be.
         """
+        from dataclasses import replace
+
         from lipdb.export.json import read_line
         from lipdb.sound import read_wav
 
@@ -205,15 +177,16 @@ class Database:
         sound = read_wav(Path(audio)) if audio else None
         if path.suffix.lower() == ".json":
             line = read_line(path, sound=sound)
-            self.language(line.language)
-            return line
-        from dataclasses import replace
-
-        self.language(language)
-        raw: Schedule = plugins.by_suffix(plugins.readers(), path, "reader")(path, tier=tier)
-        raw = replace(raw, language=language, notation=notation or raw.notation)
-        schedule, _ = self.phoneset(language).resolve(raw, allow_unknown=allow_unknown)
-        return Line(schedule, sound)
+        else:
+            self.language(language)
+            raw: Schedule = plugins.by_suffix(plugins.readers(), path, "reader")(path, tier=tier)
+            line = Line(replace(raw, language=language, notation=notation or raw.notation), sound)
+        try:
+            self._check_curves(line)
+            schedule, _ = self.phoneset(line.language).resolve(line.schedule, line=line.mapping, allow_unknown=allow_unknown)
+        except InputError as error:
+            raise type(error)(f"{path}: {error}") from error
+        return replace(line, schedule=schedule, notes=_fit(schedule, sound))
 
     # From a line to a moving face
 
@@ -246,6 +219,17 @@ class Database:
         book = self.book(who.pose_set, language=line.language, character=who.name, line=line.curves.get(who.pose_set))
         return who, replace(line, schedule=schedule), book
 
+    def _check_curves(self, line: Line) -> None:
+        """Raise `InputError` for a curve of *line*'s own whose pose set, pose or common phone does not exist."""
+        sets = {key[0]: None for key in self.records["poses/sets.tsv"]}
+        phones = {key[0]: None for key in self.records["common.tsv"]}
+        for name, curves in line.curves.items():
+            poses = dict.fromkeys(self.pose_set(_known(name, sets, "pose set")).poses)
+            for left, right, pose in curves:
+                _known(pose, poses, f"pose of {name}, in the line's curves,")
+                for phone in (left, right):
+                    _known(phone, phones, "common phone, in the line's curves,")
+
     # What decided
 
     def pairs(self, line: Line, *, character: str | Character = DEFAULT_CHARACTER) -> list[PairUse]:
@@ -258,6 +242,37 @@ class Database:
             PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in poses})
             for (left, right), count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
         ]
+
+    def explain(self, line: Line, *, at: float, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS) -> list[Cause]:
+        """What made each pose's weight at the frame nearest to *at* seconds, in the order of the pose set.
+
+        Raises `InputError` for a time outside the track.
+        """
+        from lipdb import engine
+
+        who, line, book = self._prepare(line, character)
+        edges, phones = line.schedule.common()
+        told = engine.explain(book.table(phones), self.pose_set(who.pose_set), edges, phones, at=at, fps=fps)
+        return [
+            Cause(
+                story.pose,
+                told.time,
+                story.weights,
+                tuple((left, right, weight, book.find(left, right, story.pose)) for left, right, weight in story.curves),
+                story.stage,
+                story.yields_to,
+            )
+            for story in told.poses
+        ]
+
+
+def _fit(schedule: Schedule, sound: Sound | None) -> tuple[str, ...]:
+    """A note when *sound* ends long before the last phone that is heard; a recording may well go on after it."""
+    ends = [end for phone, end in zip(schedule.phones, schedule.edges[1:], strict=True) if not phone.silent]
+    last = max(ends, default=0) / MICROSECONDS
+    if sound is None or sound.duration > last - SHORT:
+        return ()
+    return (f"the recording ends at {sound.duration:.2f} s, but its phones at {last:.2f} s; is it the right one?",)
 
 
 def _known(name: str, known: Mapping[str, object], what: str) -> str:

@@ -5,13 +5,15 @@ Commands are imported when they are asked for, so that `lipdb --help` answers at
 
 from __future__ import annotations
 
+import signal
 import sys
 from importlib import import_module
+from types import FrameType
 
 import click
 
 from lipdb.cli.options import Options
-from lipdb.errors import LipdbError
+from lipdb.errors import LipdbError, OutputError
 
 COMMANDS = {
     "say": ("lipdb.cli.speak:say", "Speak a sentence and write the moving face."),
@@ -21,7 +23,7 @@ COMMANDS = {
     "explain": ("lipdb.cli.inspect:explain", "Show what made each weight at one instant."),
     "language": ("lipdb.cli.language:language", "List and show languages."),
     "character": ("lipdb.cli.character:character", "List, show and add characters."),
-    "curves": ("lipdb.cli.curves:curves", "Make the shared curves again from their parameters."),
+    "curves": ("lipdb.cli.curves:curves", "Make the shared curves again from their parameters (targets/ and timing/)."),
     "db": ("lipdb.cli.db:db", "Look after the database: history, undo, text in and out."),
     "doctor": ("lipdb.cli.doctor:doctor", "Show what is installed, what works, and how to mend the rest."),
     "completion": ("lipdb.cli.completion:completion", "Print the completion script of a shell."),
@@ -82,14 +84,22 @@ def cli(ctx: click.Context, db: str | None, phonesets: str | None) -> None:
 
 def main() -> None:
     """Run the command line; every error that a user can cause is one line and an exit code."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)  # Windows has no SIGHUP; nohup ignores it, and so it stays.
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, _stop)
     try:
         cli(prog_name="lipdb", standalone_mode=False)
     except click.exceptions.Exit as done:
         sys.exit(done.exit_code)
     except click.Abort:
         sys.exit(130)
-    except click.ClickException as error:
+    except click.exceptions.NoArgsIsHelpError as error:
         error.show()
+        sys.exit(error.exit_code)
+    except click.UsageError as error:
+        what = " ".join(error.format_message().split()).removesuffix(".")
+        click.echo(f"lipdb: {what}; see `{error.ctx.command_path if error.ctx else 'lipdb'} --help`", err=True)
         sys.exit(error.exit_code)
     except LipdbError as error:
         click.echo(f"lipdb: {error}", err=True)
@@ -98,6 +108,18 @@ def main() -> None:
         # The reader of our output went away (`lipdb … | head`): nothing is left to tell it.
         sys.stderr.close()
         sys.exit(0)
+    except OSError as error:
+        where = error.filename or "standard output"
+        click.echo(f"lipdb: {where}: {error.strerror or error}; free some space, or look whether you may use it", err=True)
+        sys.exit(OutputError.exit_code)
+    except MemoryError:
+        click.echo("lipdb: this needs more memory than there is; give fewer frames a second, or a shorter line", err=True)
+        sys.exit(LipdbError.exit_code)
+
+
+def _stop(number: int, _frame: FrameType | None) -> None:
+    """End as a program does that was told to (code 128 and the signal's number), after temporary files are cleared away."""
+    sys.exit(128 + number)
 
 
 __all__ = ["cli", "main"]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from lipdb.cli.options import Options, json_option, print_listing
+from lipdb.cli.options import Options, json_option, print_json, print_listing
 
 LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
 
@@ -63,3 +65,29 @@ def pairs(options: Options, /, text: str, language: str, character: str, as_json
         click.echo(
             f"{len(uses)} pairs: {missing} without a curve in any table, {gaps} whose curves nobody has drawn or fitted yet", err=True
         )
+
+
+@click.command(short_help="Show what made each weight at one instant.")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--at", type=float, required=True, metavar="SECONDS", help="The instant; the frame nearest to it is explained.")
+@click.option("-c", "--character", help="Whose face; the one that the file was made for when not given.")
+@json_option
+@click.pass_obj
+def explain(options: Options, /, file: Path, at: float, character: str | None, as_json: bool) -> None:
+    """Show which pair, curve, origin, layer and stage gave each weight of the line in FILE (a .json of `lipdb say`).
+
+    \b
+    Example:
+      lipdb explain hello.json --at 0.42
+    """
+    from lipdb.database import DEFAULT_CHARACTER, DEFAULT_FPS
+    from lipdb.export.json import made_for
+
+    with options.open() as db:
+        line = db.sync(file)
+        who, fps = made_for(file)
+        causes = db.explain(line, at=at, character=character or who or DEFAULT_CHARACTER, fps=fps or DEFAULT_FPS)
+        if as_json:
+            print_json([cause.to_json() for cause in causes])
+        else:
+            print_listing([cause.to_row() for cause in causes], as_json=False)

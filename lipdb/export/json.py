@@ -14,6 +14,7 @@ from lipdb.errors import InputError
 from lipdb.export.keys import TOLERANCE, Key, dense_weights, sparse_keys
 from lipdb.line import FORMAT as LINE_FORMAT
 from lipdb.line import Line
+from lipdb.schedule import LONGEST
 from lipdb.track import Track
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from lipdb.sound import Sound
 
 FORMAT = "lipdb performance 1"
-LONGEST = 24 * 60 * 60
-"""Seconds of a track; a file that says more is wrong."""
 
 _PAIR = re.compile(r"\[\n\s*([-\d.e]+),\n\s*([-\d.e]+)\n\s*\]")
 
@@ -90,17 +89,30 @@ def read_line(path: Path, *, sound: Sound | None = None) -> Line:
         raise _at(path, error) from error
 
 
+def made_for(path: Path) -> tuple[str | None, float | None]:
+    """The character and the frames a second that a performance's JSON was made for; None each for a line's own."""
+    document = _document(path)
+    if document.get("format") == LINE_FORMAT:
+        return None, None
+    try:
+        return str(document["character"]), track_from_json(document.get("track")).fps
+    except (InputError, KeyError) as error:
+        raise InputError(f"{path}: it names no character or holds no track ({error}); make it again with `lipdb say -o`") from error
+
+
 def _at(path: Path, error: InputError) -> InputError:
     return error if str(error).startswith(str(path)) else type(error)(f"{path}: {error}")
 
 
 def _document(path: Path) -> dict[str, Any]:
     try:
-        document = json.loads(path.read_text("utf-8"))
+        # Editors on Windows put a byte order mark in front, and JSON may escape half a character, which no file can hold.
+        document = json.loads(path.read_text("utf-8-sig"))
+        json.dumps(document, ensure_ascii=False).encode()
     except FileNotFoundError as error:
         raise InputError(f"{path}: no such file") from error
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise InputError(f"{path}: not JSON ({error}); give a file that `lipdb say -o` wrote") from error
+    except (OSError, ValueError, RecursionError) as error:
+        raise InputError(f"{path}: not JSON in UTF-8 ({error}); give a file that `lipdb say -o` wrote") from error
     if not isinstance(document, dict) or document.get("format") not in (FORMAT, LINE_FORMAT):
         raise InputError(f'{path}: its "format" should be {FORMAT!r} or {LINE_FORMAT!r}; give a file that `lipdb say -o` wrote')
     return document

@@ -1,0 +1,88 @@
+"""What decided a result: the curves that a phone pair uses, and what made a weight at one instant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lipdb.curves.lookup import Found
+
+
+@dataclass(frozen=True, slots=True)
+class PairUse:
+    """A phone pair that a line needs: how often, and the winning curve of every pose."""
+
+    left: str
+    right: str
+    count: int
+    curves: Mapping[str, Found]
+
+    @property
+    def missing(self) -> list[str]:
+        """The poses whose curve no table has: it was made for the moment."""
+        return [pose for pose, found in self.curves.items() if found.fallback]
+
+    @property
+    def gap(self) -> bool:
+        """Whether the curve of some pose is neither authored nor fitted: work for an artist."""
+        return any(found.curve.origin not in ("authored", "fitted") for found in self.curves.values())
+
+    def to_row(self) -> dict[str, Any]:
+        """Plain data for a listing."""
+        moving = [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
+        return {
+            "left": self.left,
+            "right": self.right,
+            "count": self.count,
+            "origin": sorted({found.curve.origin for found in moving}),
+            "layer": sorted({found.layer for found in moving}),
+            "poses": [pose for pose, found in self.curves.items() if found.curve.keys],
+            "missing": self.missing,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """What made the weight of one pose at one instant.
+
+    *weights* by stage of the engine, from ``curve`` to ``final``; *curves* of the pairs that lie there: (left, right,
+    weight, where it was found); *stage* changed the weight most, "" when it is as drawn; *yields_to* are the poses whose
+    constraints cut into it.
+    """
+
+    pose: str
+    time: float
+    weights: Mapping[str, float]
+    curves: tuple[tuple[str, str, float, Found], ...]
+    stage: str
+    yields_to: tuple[str, ...]
+
+    def to_row(self) -> dict[str, Any]:
+        """Plain data for a listing; the curve named first is the one that won by maximum."""
+        curves = sorted(self.curves, key=lambda curve: -curve[2])
+        return {
+            "pose": self.pose,
+            "weight": self.weights["final"],
+            "stage": self.stage or "as drawn",
+            "yields_to": list(self.yields_to),
+            "pair": [f"{left}-{right}" for left, right, _, _ in curves],
+            "curve": [f"{weight:.3f}" for _, _, weight, _ in curves],
+            "origin": [found.curve.origin for *_, found in curves],
+            "layer": [found.layer for *_, found in curves],
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data with every stage and every curve's provenance."""
+        return {
+            "pose": self.pose,
+            "time": self.time,
+            "weights": dict(self.weights),
+            "stage": self.stage,
+            "yields_to": list(self.yields_to),
+            "curves": [
+                {"weight": weight, **found.curve.row((left, right, self.pose)), "layer": found.layer, "reason": found.reason}
+                for left, right, weight, found in self.curves
+            ],
+        }

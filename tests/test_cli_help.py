@@ -1,0 +1,56 @@
+"""Every command is documented, shows an example, and has an exit code for every error."""
+
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from lipdb import errors
+from lipdb.cli import COMMANDS, cli
+
+ROOT = Path(__file__).parent.parent
+
+
+def leaves(command: click.Command, path: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
+    if not isinstance(command, click.Group):
+        return [path]
+    ctx = click.Context(command)
+    return [leaf for name in command.list_commands(ctx) for leaf in leaves(command.get_command(ctx, name), (*path, name))]
+
+
+@pytest.mark.parametrize("path", leaves(cli), ids=" ".join)
+def test_help_shows_an_example_that_uses_the_command(path: tuple[str, ...]) -> None:
+    result = CliRunner().invoke(cli, [*path, "--help"])
+    assert result.exit_code == 0
+    assert "Example" in result.output
+    example = result.output.split("Example")[1].splitlines()
+    assert any(line.strip().startswith("lipdb ") and f" {' '.join(path)}" in line for line in example)
+
+
+@pytest.mark.parametrize("path", leaves(cli), ids=" ".join)
+def test_the_documentation_names_the_command(path: tuple[str, ...]) -> None:
+    rows = [line for line in (ROOT / "docs" / "cli.md").read_text("utf-8").splitlines() if line.startswith(f"| `lipdb {path[0]}")]
+    assert any(all(f"`{word}" in row or f" {word}" in row for word in path[1:]) for row in rows)
+
+
+def test_the_short_help_of_a_command_is_the_one_in_the_list() -> None:
+    for name, (_, short_help) in COMMANDS.items():
+        command = cli.get_command(click.Context(cli), name)
+        assert command is not None
+        assert command.get_short_help_str(200) == short_help
+
+
+def test_every_error_has_a_documented_exit_code_of_its_own_branch() -> None:
+    kinds = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, errors.LipdbError)]
+    documented = (ROOT / "docs" / "cli.md").read_text("utf-8")
+    for kind in kinds:
+        assert f"| {kind.exit_code} |" in documented
+        assert kind.__name__ in (errors.LipdbError.__doc__ or "")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_prints_a_script_for_the_shell(shell: str) -> None:
+    result = CliRunner().invoke(cli, ["completion", shell])
+    assert result.exit_code == 0
+    assert "_LIPDB_COMPLETE" in result.output
