@@ -220,8 +220,11 @@ def _plain_control(w, pose, done, rules):
     if rules.must_reach[pose]:
         wide = w.copy()
         for first, last in _plateaus(w):
-            if last - first < 2:
-                wide[first - 1], wide[last + 1] = max(wide[first - 1], w[first]), max(wide[last + 1], w[first])
+            sides = [first - 1, last + 1]
+            if last - first == 1:
+                sides = [max(sides, key=lambda k: w[k])]
+            for k in sides if last - first < 2 else ():
+                wide[k] = max(wide[k], w[first])
         w = wide
     for j, limit in rules.bounds(pose):
         w = np.minimum(w, np.maximum(0, limit - done[j]))

@@ -19,14 +19,19 @@ def peaks(weights: Floats) -> tuple[Ints, Ints]:
 
 
 def hold_peaks(weights: Floats) -> None:
-    """Widen peaks of less than three points, in place: three equal points pass the spline unchanged."""
+    """Widen peaks of less than three points to three, in place: three equal points pass the spline unchanged.
+
+    A single point raises both neighbours, two points the higher one of theirs: no more than the peak needs, because all
+    that it takes beyond is taken from the opening after it.
+    """
     first, last = peaks(weights)
     narrow = last - first < 2
     first, last = first[narrow], last[narrow]
     flat = weights.reshape(-1)
-    top = flat[first]
-    np.maximum.at(flat, first - 1, top)
-    np.maximum.at(flat, last + 1, top)
+    top, single = flat[first], first == last
+    before = flat[first - 1] >= flat[last + 1]
+    for at, raised in ((first - 1, single | before), (last + 1, single | ~before)):
+        np.maximum.at(flat, at[raised], top[raised])
 
 
 def limit_below(weights: Floats, most: Floats) -> None:
