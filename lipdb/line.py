@@ -67,4 +67,4 @@ class Line:
 
 def _curve(row: Mapping[str, str]) -> tuple[CurveKey, Curve]:
     whole = {"warp": "border", "origin": "authored", "source": "line", "licence": "", "author": "", "time": "", "comment": "", **row}
-    return (row["left"], row["right"], row["pose"]), curve_from_row(whole)
+    return (str(row["left"]), str(row["right"]), str(row["pose"])), curve_from_row(whole)

@@ -28,11 +28,16 @@ def data_dir(name: str) -> Path:
 def phonesets_dir(folder: Path | str | None = None) -> Path:
     """The folder of curated text: *folder*, else ``LIPDB_PHONESETS``, else the shipped one."""
     chosen = folder or os.environ.get("LIPDB_PHONESETS")
-    return Path(chosen).expanduser() if chosen else data_dir("phonesets")
+    return expanded(chosen) if chosen else data_dir("phonesets")
 
 
 def home() -> Path:
     """The folder of a person's own data: ``LIPDB_HOME``, else ``lipdb`` in the place for users' data (XDG)."""
     if chosen := os.environ.get("LIPDB_HOME"):
-        return Path(chosen).expanduser()
-    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "lipdb"
+        return expanded(chosen)
+    return expanded(os.environ.get("XDG_DATA_HOME") or "~/.local/share") / "lipdb"
+
+
+def expanded(path: Path | str) -> Path:
+    """*path* with ``~`` as the home folder; it stays as it is where there is none (an unknown user, a bare container)."""
+    return Path(os.path.expanduser(path))  # noqa: PTH111  (Path.expanduser raises instead)

@@ -11,6 +11,8 @@ from lipdb.errors import ScheduleError
 
 SILENCE = "_"
 MICROSECONDS = 1_000_000
+LONGEST = 24 * 60 * 60
+"""Seconds: a schedule that ends later is wrong."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +72,7 @@ class Schedule:
     ) -> Self:
         """Make a schedule of ``(start, end, phone)`` in seconds, in order of time; gaps become silence.
 
-        Raises `ScheduleError` for times that are not finite, for negative or zero lengths, and for overlaps of more
+        Raises `ScheduleError` for times that are not finite or beyond a day, for negative or zero lengths, and for overlaps of more
         than a microsecond.
         """
         edges: list[int] = []
@@ -80,6 +82,8 @@ class Schedule:
             where = f"schedule: phone {i} ({phone.symbol!r})"
             if not (math.isfinite(start) and math.isfinite(end)):
                 raise ScheduleError(f"{where} has a time that is not a number ({start}, {end}); write seconds")
+            if max(abs(start), abs(end)) > LONGEST:
+                raise ScheduleError(f"{where} lasts from {start:g} to {end:g} s, beyond a day; write seconds, and cut what is longer")
             a, b = round(start * MICROSECONDS), round(end * MICROSECONDS)
             if b <= a:
                 raise ScheduleError(f"{where} lasts from {start:g} to {end:g} s; its end must come after its start")
@@ -163,8 +167,13 @@ class Schedule:
                 for row in data["phones"]
             ]
             language, notation = str(data.get("language", "")), str(data.get("notation", ""))
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise ScheduleError(
                 f"schedule: not a schedule in lipdb's JSON ({type(error).__name__}: {error}); make one with `lipdb say -o`"
             ) from error
+        for i, (_, _, phone) in enumerate(intervals):
+            if not -1 <= phone.word < len(words):
+                raise ScheduleError(
+                    f"schedule: phone {i} ({phone.symbol!r}) is of word {phone.word}, but there are {len(words)}; -1 is none"
+                )
         return cls.from_intervals(intervals, language=language, notation=notation, words=words)

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from lipdb.errors import InputError
 
+LOWEST_RATE, HIGHEST_RATE = 1_000, 768_000
+"""Samples a second that a recording may have."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sound:
@@ -33,7 +36,9 @@ def read_wav(path: Path) -> Sound:
     except FileNotFoundError as error:
         raise InputError(f"{path}: no such file") from error
     except (wave.Error, EOFError, OSError) as error:
-        raise InputError(f"{path}: not a PCM wave file ({error}); convert it to 16-bit WAV") from error
+        raise InputError(f"{path}: not a PCM wave file ({str(error) or 'cut off'}); convert it to 16-bit WAV") from error
+    if not LOWEST_RATE <= rate <= HIGHEST_RATE or width > 4:
+        raise InputError(f"{path}: {rate} samples of {8 * width} bits a second can't be sound; convert it to 16-bit WAV")
     if width == 1:
         samples = (np.frombuffer(raw, np.uint8).astype(np.int16) - 128) << 8
     else:

@@ -17,9 +17,8 @@ def schedule_of(lengths: list[int], start: int = 0) -> Schedule:
     edges = [start]
     for length in lengths:
         edges.append(edges[-1] + length)
-    return Schedule(
-        tuple(edges), tuple(Phone(f"p{i}", ("ah", "d")[: 1 + i % 2], "common", i % 3, i % 5, i % 2) for i in range(len(lengths)))
-    )
+    phones = (Phone(f"p{i}", ("ah", "d")[: 1 + i % 2], "common", i % 4 - 1, i % 5, i % 2) for i in range(len(lengths)))
+    return Schedule(tuple(edges), tuple(phones), words=("one", "two", "three"))
 
 
 @given(lengths, st.integers(-1_000_000_000, 1_000_000_000))

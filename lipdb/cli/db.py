@@ -154,7 +154,11 @@ def load(options: Options, folder: Path, since: int | None, author: str, note: s
     Example:
       lipdb db load review/ --since 11 --note "softer b and p"
     """
-    loaded = _open(options).load(folder, author=author, note=note, since=since)
+    from lipdb.curated.folder import read_checked_folder
+
+    store = _open(options)
+    read_checked_folder(folder)  # the store takes whatever is canonical; a person means names that are there
+    loaded = store.load(folder, author=author, note=note, since=since)
     if as_json:
         print_json(loaded.to_json())
     elif loaded.revision is None:

@@ -49,7 +49,8 @@ def print_listing(rows: Sequence[Mapping[str, Any]], *, as_json: bool, columns: 
         print_json([dict(row) for row in rows])
         return
     names = list(columns) or list(rows[0] if rows else ())
-    if not sys.stdout.isatty():
+    # There is no standard output when a shell closed it (`lipdb … >&-`).
+    if sys.stdout is None or not sys.stdout.isatty():
         for row in [dict(zip(names, names, strict=True)), *rows]:
             click.echo("\t".join(_cell(row.get(name, "")) for name in names))
         return

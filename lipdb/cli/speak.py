@@ -55,9 +55,8 @@ def say(options: Options, /, text: str, language: str, allow_unknown: bool, **fa
     if text == "-":
         text = _standard_input()
     with options.open() as db:
+        _check(db, **face)
         line = db.say(text, language=language, allow_unknown=allow_unknown)
-        for note in line.notes:
-            click.echo(f"lipdb: {note}", err=True)
         _deliver(db, line, **face)
 
 
@@ -85,12 +84,25 @@ def sync(
       lipdb sync talk.TextGrid --audio talk.wav --language en -o talk.csv
     """
     with options.open() as db:
+        _check(db, **face)
         line = db.sync(file, audio=audio, language=language, tier=tier, notation=notation, allow_unknown=allow_unknown)
         _deliver(db, line, **face)
 
 
+def _check(db: Database, *, character: str, outputs: tuple[Path, ...], **_: Any) -> None:
+    """Find out before the work that the character is known and that there is an exporter for every output."""
+    from lipdb import plugins
+
+    db.character(character)
+    exporters = plugins.exporters()
+    for path in outputs:
+        plugins.by_suffix(exporters, path, "exporter")
+
+
 def _deliver(db: Database, line: Line, *, character: str, fps: float, outputs: tuple[Path, ...], as_json: bool) -> None:
-    """Write every output, or show the schedule when there is none."""
+    """Say what is to be known of the line, then write every output, or show the schedule when there is none."""
+    for note in line.notes:
+        click.echo(f"lipdb: {note}", err=True)
     if not outputs:
         _show(line.schedule, as_json=as_json)
         return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from lipdb.curated.check import check
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Finding, Key, Records, Row, format_rows, parse_rows
 from lipdb.errors import PhonesetError
@@ -39,6 +40,14 @@ def read_folder(folder: Path) -> dict[str, dict[Key, Row]]:
         raise PhonesetError("\n".join(str(finding) for finding in findings))
     if not records:
         raise PhonesetError(f"{folder}: no curated data in it; it should hold common.tsv and a folder for each language")
+    return records
+
+
+def read_checked_folder(folder: Path) -> dict[str, dict[Key, Row]]:
+    """Every table below *folder*, every name that a row mentions being there. Raises `PhonesetError` with all findings."""
+    records = read_folder(folder)
+    if findings := check(records):
+        raise PhonesetError("\n".join(str(finding) for finding in findings))
     return records
 
 

@@ -26,6 +26,8 @@ QUALITY = "18"
 """H.264's constant rate factor: lower is better and larger; 18 shows no loss to the eye."""
 
 SOUND_BITS = 128_000
+AAC_RATES = (8_000, 11_025, 12_000, 16_000, 22_050, 24_000, 32_000, 44_100, 48_000, 64_000, 88_200, 96_000)
+"""Samples a second that AAC has; others are resampled to the next one."""
 WEBP_FPS = 25
 WEBP_SIZE = (480, 480)
 
@@ -75,10 +77,11 @@ def _sound_packets(file: Any, sound: Sound) -> Iterator[Any]:
     """AAC packets of *sound*, made as they are asked for."""
     import av
 
-    stream = file.add_stream("aac", rate=sound.rate, layout="mono")
+    rate = next((rate for rate in AAC_RATES if rate >= sound.rate), AAC_RATES[-1])
+    stream = file.add_stream("aac", rate=rate, layout="mono")
     stream.bit_rate = SOUND_BITS
     _make_exact(stream)
-    return _encoded(stream, av.AudioResampler(format="fltp", layout="mono", rate=sound.rate, frame_size=1024), sound)
+    return _encoded(stream, av.AudioResampler(format="fltp", layout="mono", rate=rate, frame_size=1024), sound)
 
 
 def _encoded(stream: Any, resampler: Any, sound: Sound) -> Iterator[Any]:

@@ -17,6 +17,7 @@ from lipdb.phones.symbols import Symbols
 from lipdb.schedule import SILENCE, Phone, Schedule
 
 _NO_LINE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+LONGEST_SHOWN = 40
 _SILENT = Mapped(SILENCE, (SILENCE,), COMMON, "silence")
 
 
@@ -153,7 +154,8 @@ class PhoneSet:
 
     def _complaint(self, unknown: tuple[Unknown, ...], notation: str) -> str:
         each = (
-            f"{u.symbol!r} ({u.count}x" + (f", nearest {u.proposal!r}, {u.reason})" if u.proposal else f", {u.reason})") for u in unknown
+            f"{shortened(u.symbol)!r} ({u.count}x" + (f", nearest {u.proposal!r}, {u.reason})" if u.proposal else f", {u.reason})")
+            for u in unknown
         )
         return (
             f"{self.language}: {len(unknown)} unknown symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: {'; '.join(each)}. "
@@ -172,6 +174,11 @@ class PhoneSet:
                 raise InputError(
                     f"the line's mapping: {self.language} has no phone {phone!r}" + (f"; did you mean {near[0]!r}?" if near else "")
                 )
+
+
+def shortened(symbol: str) -> str:
+    """*symbol* as far as it can be shown in a line: a damaged file may hold a whole text as one label."""
+    return symbol if len(symbol) <= LONGEST_SHOWN else symbol[: LONGEST_SHOWN - 1] + "…"
 
 
 def _spoken(phone: Phone, mapped: Mapped, label: Label | None) -> Phone:

@@ -15,6 +15,7 @@ import numpy as np
 
 from lipdb.errors import OutputError, ScheduleError
 from lipdb.files import whole_file
+from lipdb.paths import expanded
 from lipdb.schedule import Schedule
 from lipdb.sound import Sound
 from lipdb.speech.voice import Spoken, Voice
@@ -27,8 +28,8 @@ LIMIT = 256 * 1024 * 1024
 def cache_folder() -> Path:
     """``LIPDB_CACHE``, else ``lipdb`` in the place for users' caches (XDG)."""
     if chosen := os.environ.get("LIPDB_CACHE"):
-        return Path(chosen).expanduser()
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "lipdb"
+        return expanded(chosen)
+    return expanded(os.environ.get("XDG_CACHE_HOME") or "~/.cache") / "lipdb"
 
 
 def spoken(voice: Voice, text: str, *, folder: Path | None = None) -> Spoken:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from lipdb.errors import InputError, ScheduleError
-from lipdb.schedule import SILENCE, Phone, Schedule
+from lipdb.schedule import LONGEST, SILENCE, Phone, Schedule
 from lipdb.speech.praat import Interval, Tier, parse_textgrid
 
 # Names that aligners give their tiers, the most telling first: MFA and Gentle, SPPAS, WebMAUS, and what people write.
@@ -18,7 +18,6 @@ WORD_TIERS = ("words", "word", "tokensalign", "ort-mau", "ort", "tokens", "token
 # MFA writes "Alice - phones" when a file has several speakers.
 _SPEAKER = re.compile(r"(?P<speaker>.+) - (?P<kind>[^-]+)")
 _OVERLAP = 1e-6
-_LATEST = 1e7
 
 
 def read_textgrid(path: Path, *, tier: str | None = None) -> Schedule:
@@ -91,7 +90,7 @@ def _checked(tier: Tier, name: str) -> tuple[Interval, ...]:
     last = 0.0
     for number, (start, end, label) in enumerate(tier.intervals or (), 1):
         where = f"{name}: tier {_printable(tier.name)!r}, interval {number} ({_printable(label)!r})"
-        if not (math.isfinite(start) and math.isfinite(end) and end < _LATEST):
+        if not (math.isfinite(start) and math.isfinite(end) and end <= LONGEST):
             raise ScheduleError(f"{where} has a time that is no number of seconds ({start:g} to {end:g}); mend it in Praat")
         if start < 0:
             raise ScheduleError(f"{where} starts before 0 ({start:g} s); shift the times so that the sound starts at 0")

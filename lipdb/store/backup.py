@@ -22,11 +22,14 @@ def back_up(source: sa.Connection, file: Path) -> None:
     """
     with whole_file(file) as temporary, plain_errors(str(file)):
         engine = make_engine(sa.URL.create("sqlite", database=str(temporary)), foreign_keys=False)
-        if source.dialect.name == "sqlite":
-            _copy_pages(source, engine)
-        else:
-            _copy_rows(source, engine)
-        engine.dispose()
+        try:
+            if source.dialect.name == "sqlite":
+                _copy_pages(source, engine)
+            else:
+                _copy_rows(source, engine)
+        finally:
+            engine.dispose()
+            Path(f"{temporary}-journal").unlink(missing_ok=True)  # of a copy that a full disk cut off
 
 
 def _copy_pages(source: sa.Connection, target: sa.Engine) -> None:

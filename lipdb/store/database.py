@@ -13,7 +13,7 @@ from typing import Self
 
 import sqlalchemy as sa
 
-from lipdb.curated.folder import read_folder
+from lipdb.curated.folder import read_checked_folder, read_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Finding, Key, Row
 from lipdb.errors import InputError
@@ -199,7 +199,7 @@ class Store:
             upgrade_tables(self._url)
         else:
             create(self._url, self.phonesets, time=_now())
-        records, digest = read_folder(self.phonesets), text_digest(self.phonesets)
+        records, digest = read_checked_folder(self.phonesets), text_digest(self.phonesets)
         with self._writing() as connection:
             outcome, number = merge_shipped(connection, records, digest, time=_now())
         return Upgrade(before, SCHEMA, number, outcome)

@@ -15,7 +15,7 @@ from typing import Any
 import sqlalchemy as sa
 
 from lipdb.errors import StoreError
-from lipdb.paths import DATABASE, home
+from lipdb.paths import DATABASE, expanded, home
 
 BUSY_MILLISECONDS = 5000
 WRITER_LOCK = 0x6C697064  # "lipd": PostgreSQL's advisory lock that writers take in turn.
@@ -35,7 +35,7 @@ def database_url(place: str | Path | None = None) -> sa.URL:
     """
     text = str(place or os.environ.get("LIPDB_URL") or home() / DATABASE)
     if "://" not in text:
-        return sa.URL.create("sqlite", database=str(Path(text).expanduser().absolute()))
+        return sa.URL.create("sqlite", database=str(expanded(text).absolute()))
     shown = text.rpartition("@")[2]
     try:
         url = sa.make_url(text)
@@ -46,6 +46,8 @@ def database_url(place: str | Path | None = None) -> sa.URL:
         raise StoreError(f"{shown}: lipdb keeps its data in SQLite or PostgreSQL; give a file, or postgresql://user@host/name")
     if driver == "sqlite" and url.database in (None, "", ":memory:"):
         raise StoreError(f"{shown}: a database in memory would be empty for every connection; give a file")
+    if driver == "sqlite" and url.query:
+        raise StoreError(f"{shown}: a SQLite file takes no options; leave out what stands after the question mark")
     return url.set(drivername=driver)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import sqlalchemy as sa
 
-from lipdb.curated.folder import read_folder
+from lipdb.curated.folder import read_checked_folder
 from lipdb.errors import StoreError
 from lipdb.paths import home
 from lipdb.store.engines import is_file, make_engine, place_of, writing
@@ -20,7 +20,7 @@ from lipdb.store.tables import OLDER_SCHEMAS
 
 def create(url: sa.URL, phonesets: Path, *, time: str) -> None:
     """Make the tables at *url* and fill them from *phonesets*. Does nothing when another program did it meanwhile."""
-    records, digest = read_folder(phonesets), text_digest(phonesets)
+    records, digest = read_checked_folder(phonesets), text_digest(phonesets)
     _make_room(url)
     with _migrating(url) as connection:
         if not schema_of(connection, place_of(url)):
@@ -61,6 +61,9 @@ def _migrating(url: sa.URL) -> Iterator[sa.Connection]:
 
     with plain_errors(place_of(url)):
         engine = make_engine(url, foreign_keys=False)
-        with writing(engine).begin() as connection:
-            yield connection
-        engine.dispose()
+        try:
+            with writing(engine).begin() as connection:
+                yield connection
+        finally:
+            # SQLite takes its journal away when the connection closes: after a full disk, too.
+            engine.dispose()
