@@ -150,9 +150,9 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
     begin -= (anchor * rate.frame).repeat(count)
     finish = (begin + first + second)[at + count - 1]
     begins, line = begin[at], head.searchsorted(at, side="right") - 1
-    pad = 2 + math.ceil(max(window * CONTROL_RATE / 2, CONTROL_RATE / slowest + 3))
+    pad = 1 + math.ceil(max(window * CONTROL_RATE / 2, CONTROL_RATE / slowest + 2))  # held, limited and splined
     low, high = begins // rate.control - pad, _up(finish, rate.control) + pad + 1
-    pad = 2 + math.ceil(max(window * fps / 2, fps / slowest + 3 + 3 * fps / CONTROL_RATE))
+    pad = pad if rate.on_grid else 2 + math.ceil(pad * fps / CONTROL_RATE + fps / slowest)  # raised and limited once more
     low_frame, high_frame = begins // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
     first_frame, last_frame = np.zeros_like(asked), asked.copy()
     np.minimum.at(first_frame, line, low_frame)
