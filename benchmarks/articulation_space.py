@@ -19,8 +19,8 @@ CLOSING = ("PBM", "FV")
 """They change the opening too, but how they close is decided by what must hold (docs/curves.md), not by a fit."""
 WIDEST_OPEN = 0.5
 """The constraints of the pose set let the jaw open no further (constraints/facefx.tsv)."""
-LEAST_HUSH = 0.45
-"""sh keeps at least this of its own pose: teeth and funnel are seen, although opening and width don't show them."""
+LEAST = {("sh", "ShCh"): 0.45, ("w", "W"): 0.65, ("ow", "W"): 0.5, ("ao", "W"): 0.45}
+"""What must be seen whatever one speaker does: a funnel for sh (opening and width don't show it), round lips for who."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Space:
         target, glide = float(self.start.target[n, p]), float(self.start.glide[n, p])
         moved = max(target, glide) > 0
         if phone != SILENCE and (phone, pose) != ("bmp", "open") and (moved or pose != "ShCh"):
-            low, high = LEAST_HUSH if (phone, pose) == ("sh", "ShCh") else 0.0, WIDEST_OPEN if pose == "open" else 1.0
+            low, high = LEAST.get((phone, pose), 0.0), WIDEST_OPEN if pose == "open" else 1.0
             # A pose that articulation does not ask for may show a little, no more.
             sd = 0.15 if moved or pose == "open" else 0.06
             self._add("target", n, p, target, sd, low, high)

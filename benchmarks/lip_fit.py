@@ -19,6 +19,8 @@ from lipdb import engine
 from lipdb.characters.human import robin
 from lipdb.characters.mouth import measure
 from lipdb.curves.generate import NEGLIGIBLE, Targets, shapes
+from lipdb.curves.keys import DECIMALS
+from lipdb.engine.table import GRAIN
 from lipdb.poses import PoseSet
 
 Floats = NDArray[np.float64]
@@ -91,7 +93,8 @@ def compiled(table: engine.CurveTable, targets: Targets) -> engine.CurveTable:
     """*table* with the curves of *targets* in place of its own: `CurveTable.build` without the way through text."""
     count = len(targets.phones)
     left, right = np.divmod(np.arange(count * count), count)
-    times, weights = shapes(targets, left, right)
+    # Rounded as text rounds them: a valley that is just filled or not moves with the last decimal.
+    times, weights = (np.round(numbers, DECIMALS) for numbers in shapes(targets, left, right))
     poses = [targets.poses.index(pose) for pose in table.poses]
     times, weights = times[:, poses], weights[:, poses]
     pair, pose = np.nonzero((weights.max(axis=-1) >= NEGLIGIBLE) & (left + right > 0)[:, None])
@@ -103,7 +106,7 @@ def compiled(table: engine.CurveTable, targets: Targets) -> engine.CurveTable:
         first=np.searchsorted(np.repeat(pair, times.shape[1]), np.arange(count * count + 1)),
         left=np.minimum(2 * times, 1).ravel(),
         right=np.maximum(2 * times - 1, 0).ravel(),
-        weight=weights.ravel(),
+        weight=weights.ravel() + GRAIN - GRAIN,
         pose=np.repeat(pose, times.shape[1]),
         joined=joined.ravel(),
     )

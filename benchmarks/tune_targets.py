@@ -1,6 +1,6 @@
 """Tune the articulation parameters on recorded lips, and say how well they follow words that they were not tuned on.
 
-usage: python benchmarks/tune_targets.py --data FOLDER [--shrink 0.3] [--folds 5] [--write]
+usage: python benchmarks/tune_targets.py --data FOLDER [--shrink 0.15] [--folds 5] [--write]
 
 Starts from benchmarks/articulation (values chosen by knowledge alone) and prints opening_r and width_r before and
 after. With --folds, the words of the recording are dealt into that many groups; the lips during the words of one group
@@ -70,15 +70,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--data", type=Path, required=True, help="folder with phones.csv.gz and mouth_25fps.csv.gz")
     parser.add_argument("--phonesets", type=Path, help="curated data; the shipped ones by default")
-    parser.add_argument("--shrink", type=float, default=0.3, help="how strongly numbers are held to their articulatory start")
+    parser.add_argument("--shrink", type=float, default=0.15, help="how strongly numbers are held to their articulatory start")
     parser.add_argument("--folds", type=int, default=0, help="groups of words for cross-validation; 0: none")
     parser.add_argument("--write", action="store_true", help="write the tuned numbers into the curated data")
     options = parser.parse_args()
     folder = phonesets_dir(options.phonesets)
     start = read_folder(ARTICULATION)
-    phoneset, book, pose_set = english({**read_folder(folder), **start})
+    records = {**read_folder(folder), **start}
+    phoneset, book, pose_set = english(records)
     recording = Recording.read(options.data, phoneset)
-    targets = Targets.from_records(start, "facefx")
+    targets = Targets.from_records(records, "facefx")
     some = lips_only(pose_set)
     lips = Lips(recording, some, book.table(targets.phones, poses=some.poses))
     space = Space(targets, sorted({phone for _, phones in lips.lines for phone in phones}))

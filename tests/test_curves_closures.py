@@ -117,8 +117,7 @@ def test_vowels_open_as_wide_as_they_sound():
     def widest(vowel):
         return opening(play(["_", "d", vowel, "d", "_"], [300, 80, 160, 80, 300], fps=60)[1]).max()
 
-    assert widest("aa") > widest("eh") > widest("w")
-    assert widest("aa") > widest("ih") > widest("w")
+    assert min(widest("aa"), widest("eh"), widest("ay")) > widest("ih") > widest("er") > widest("w")
 
 
 def test_the_open_pose_peaks_where_the_constraints_let_it():

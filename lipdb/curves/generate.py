@@ -135,7 +135,10 @@ def shapes(targets: Targets, left: NDArray[np.intp], right: NDArray[np.intp]) ->
 
 
 def thinned(times: Array, weights: Array) -> Keys:
-    """The fewest of the keys that draw the same line to half of the last decimal; none for a negligible curve."""
+    """The fewest of the keys that draw the same line to half of the last decimal; none for a negligible curve.
+
+    The key on the border stays: phones of unequal length bend the line there.
+    """
     keys = [(round(float(t), DECIMALS), round(float(w), DECIMALS)) for t, w in zip(times, weights, strict=True)]
     if max(weight for _, weight in keys) < NEGLIGIBLE:
         return ()
@@ -145,7 +148,7 @@ def thinned(times: Array, weights: Array) -> Keys:
             continue
         (t0, w0), (t1, w1), (t2, w2) = kept[-1], here, after
         line = w0 + (w2 - w0) * (t1 - t0) / (t2 - t0) if t2 > t0 else w1 + 1
-        if abs(w1 - line) > 10.0**-DECIMALS:
+        if abs(w1 - line) > 0.5 * 10.0**-DECIMALS or (t1 == BORDER and w0 != w2):
             kept.append(here)
     kept.append(keys[-1])
     first = next(n for n, (_, weight) in enumerate(kept) if weight)
