@@ -151,7 +151,8 @@ class Database:
 
         result = spoken(self.voice(language), text)
         schedule, _ = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
-        return Line(schedule, result.sound, text, notes=result.notes)
+        # A command line may hold bytes that are no text, which no file takes.
+        return Line(schedule, result.sound, text.encode(errors="replace").decode(), notes=result.notes)
 
     def sync(
         self,

@@ -17,15 +17,15 @@ def whole_file(path: Path) -> Iterator[Path]:
 
     Raises `OutputError` when the folder is missing, read-only or full; *path* is then as it was before.
     """
-    if not path.parent.is_dir():
-        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
-    if path.is_dir():
-        raise OutputError(f"{path}: this is a folder; give a file name")
     try:
+        if not path.parent.is_dir():
+            raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
+        if path.is_dir():
+            raise OutputError(f"{path}: this is a folder; give a file name")
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=".lipdb-", suffix=path.suffix)
         os.close(handle)
     except OSError as error:
-        raise OutputError(f"{path}: can't write into {path.parent} ({error.strerror}); choose another folder") from error
+        raise OutputError(f"{path}: can't write into {path.parent} ({error.strerror}); choose another folder or name") from error
     temporary = Path(name)
     try:
         yield temporary

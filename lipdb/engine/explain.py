@@ -129,7 +129,7 @@ def explain(
     """What made each pose's weight at the frame nearest to *at* seconds. Raises `InputError` for a time outside the track."""
     made = stages(table, pose_set, edges, phones, fps=fps)
     last = len(made.track.weights) - 1
-    frame = round(at * fps) if math.isfinite(at) else -1
+    frame = round(at * fps) if math.isfinite(at * fps) else -1
     if not 0 <= frame <= last:
         raise InputError(f"there is nothing to explain at {at:g} s; the track lasts from 0 to {max(last, 0) / fps:g} s")
     there = [curve for curve in made.curves if curve.covers(frame / fps)]
