@@ -8,7 +8,7 @@ pulls every number back to its articulatory start.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from articulation_space import CLOSING, MEASURED, Space
@@ -20,8 +20,8 @@ from lipdb.characters.human import robin
 from lipdb.characters.mouth import measure
 from lipdb.curves.generate import NEGLIGIBLE, Targets, shapes
 from lipdb.curves.keys import DECIMALS
-from lipdb.engine.table import GRAIN
 from lipdb.poses import PoseSet
+from lipdb.schedule import SILENCE
 
 Floats = NDArray[np.float64]
 
@@ -45,9 +45,10 @@ def lips_only(pose_set: PoseSet) -> PoseSet:
 class Lips:
     """The speech frames of a recording: *truth* ``(F, 2)`` measured, `predicted` from targets."""
 
-    def __init__(self, recording: Recording, pose_set: PoseSet, table: engine.CurveTable) -> None:
-        self.pose_set, self.table = pose_set, table
+    def __init__(self, recording: Recording, pose_set: PoseSet) -> None:
+        self.pose_set = pose_set
         self.lines = [schedule.common() for schedule in recording.schedules]
+        self.phones = sorted({phone for _, phones in self.lines for phone in phones} | {SILENCE})
         frames = [
             (g, k) for g, (edges, _) in enumerate(self.lines) for k in range(-(-edges[0] * FPS // 10**6), edges[-1] * FPS // 10**6 + 1)
         ]
@@ -58,7 +59,9 @@ class Lips:
 
     def predicted(self, targets: Targets) -> Floats:
         """Opening and width at every frame, shape ``(F, 2)``."""
-        tracks = engine.animate_lines(compiled(self.table, targets), self.pose_set, self.lines, fps=FPS, frames=[FRAMES] * len(self.lines))
+        tracks = engine.animate_lines(
+            compiled(targets, self.phones, self.pose_set.poses), self.pose_set, self.lines, fps=FPS, frames=[FRAMES] * len(self.lines)
+        )
         weights = tracks.axis[:, tracks.origin[self.sentence] + self.frame].T
         return np.stack(measure(robin(), weights, tracks.poses), axis=-1)
 
@@ -89,27 +92,25 @@ def _word(recording: Recording, g: int, k: int) -> str:
     return schedule.words[index] if index >= 0 else ""
 
 
-def compiled(table: engine.CurveTable, targets: Targets) -> engine.CurveTable:
-    """*table* with the curves of *targets* in place of its own: `CurveTable.build` without the way through text."""
-    count = len(targets.phones)
-    left, right = np.divmod(np.arange(count * count), count)
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """As much of a curve as the engine reads."""
+
+    keys: tuple[tuple[float, float], ...]
+    warp: str = "border"
+
+
+def compiled(targets: Targets, phones: Sequence[str], poses: Sequence[str]) -> engine.CurveTable:
+    """The curves of *targets* for *phones* and *poses*, as the engine plays them."""
+    some = np.array([targets.phones.index(phone) for phone in phones])
+    left, right = (side.ravel() for side in np.meshgrid(some, some, indexing="ij"))
     # Rounded as text rounds them: a valley that is just filled or not moves with the last decimal.
     times, weights = (np.round(numbers, DECIMALS) for numbers in shapes(targets, left, right))
-    poses = [targets.poses.index(pose) for pose in table.poses]
-    times, weights = times[:, poses], weights[:, poses]
-    pair, pose = np.nonzero((weights.max(axis=-1) >= NEGLIGIBLE) & (left + right > 0)[:, None])
-    times, weights = times[pair, pose], weights[pair, pose]
-    joined = np.ones(times.shape)
-    joined[:, -1] = 0
-    return replace(
-        table,
-        first=np.searchsorted(np.repeat(pair, times.shape[1]), np.arange(count * count + 1)),
-        left=np.minimum(2 * times, 1).ravel(),
-        right=np.maximum(2 * times - 1, 0).ravel(),
-        weight=weights.ravel() + GRAIN - GRAIN,
-        pose=np.repeat(pose, times.shape[1]),
-        joined=joined.ravel(),
-    )
+    curves = {}
+    for m, p in np.argwhere(weights.max(axis=-1) >= NEGLIGIBLE).tolist():
+        pair = targets.phones[left[m]], targets.phones[right[m]]
+        curves[*pair, targets.poses[p]] = Drawn(tuple(zip(times[m, p].tolist(), weights[m, p].tolist(), strict=True)))
+    return engine.CurveTable.build(phones, poses, curves)
 
 
 def fit(lips: Lips, space: Space, *, shrink: float, mask: Floats | None = None, steps: Sequence[tuple[float, int]] = STEPS) -> Floats:

@@ -7,7 +7,7 @@ zero and ends the search.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING, Any, Self
@@ -124,21 +124,17 @@ class CurveBook:
             self._found[key] = self._own(key) or self._elsewhere(key)
         return self._found[key]
 
-    def table(self, phones: Iterable[str], *, poses: Sequence[str] | None = None) -> CurveTable:
-        """The curves of every pair of *phones* (repeats and order don't matter) and silence, compiled for the engine.
-
-        *poses* are those of the set, in its order, unless some of them are named.
-        """
+    def table(self, phones: Iterable[str]) -> CurveTable:
+        """The curves of every pair of *phones* (repeats and order don't matter) and silence, compiled for the engine."""
         from lipdb.engine.table import CurveTable
 
         names = (SILENCE, *sorted(set(phones) - {SILENCE}))
-        chosen = self.poses if poses is None else tuple(poses)
         curves = {}
-        for left, right, pose in product(names, names, chosen):
+        for left, right, pose in product(names, names, self.poses):
             curve = self.find(left, right, pose).curve
             if curve.keys:
                 curves[left, right, pose] = curve
-        return CurveTable.build(names, chosen, curves)
+        return CurveTable.build(names, self.poses, curves)
 
     def report(self, pairs: Iterable[tuple[str, str]]) -> list[Fallback]:
         """What stands in where *pairs* have no curve in any table: one entry a pair and reason, in the order of *pairs*."""
