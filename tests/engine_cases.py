@@ -144,11 +144,11 @@ def polygons(table: CurveTable, edges, phones):
         first = min(e0 - s0, 250_000) if a == "_" else e0 - s0
         second = min(e1 - s1, 250_000) if b == "_" else e1 - s1
         number = table.number[a] * len(table.phones) + table.number[b]
-        keys = np.arange(table.first[number], table.first[number + 1])
-        for pose in np.unique(table.pose[keys]):
-            own = keys[table.pose[keys] == pose]
-            times = e0 - first + table.left[own] * first + table.right[own] * second
-            drawn.append((int(pose), times / 1e6, table.weight[own]))
+        strips = np.arange(table.first[number], table.first[number + 1])
+        for pose in np.unique(table.pose[strips]):
+            own = strips[table.pose[strips] == pose]
+            left, right, weight = (keys[:, own].T.ravel() for keys in (table.left, table.right, table.weight))
+            drawn.append((int(pose), (e0 - first + left * first + right * second) / 1e6, weight))
     return drawn, [(s / 1e6, e / 1e6, p) for s, e, p in spans]
 
 

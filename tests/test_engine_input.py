@@ -26,9 +26,10 @@ def test_edges_that_do_not_run_forward_are_refused():
         animate(cases.articulated(), cases.pose_set(), [0, 200_000, 200_000], ["ah", "d"])
 
 
-def test_edges_must_be_whole_microseconds():
+@pytest.mark.parametrize("edges", [[0.0, 0.25], [0, float("nan")], [0, 10**20], np.array([0.0, 0.25]), [0, "1"]])
+def test_edges_must_be_whole_microseconds(edges):
     with pytest.raises(ScheduleError, match="whole microseconds"):
-        animate(cases.articulated(), cases.pose_set(), [0.0, 0.25], ["ah"])
+        animate(cases.articulated(), cases.pose_set(), edges, ["ah"])
 
 
 def test_a_phone_that_the_table_lacks_is_named():

@@ -112,14 +112,17 @@ def _laid(player: Player) -> tuple[Laid, ...]:
     table, pairs, rate = player.table, player.line.pairs, player.line.rate
     keys = gather(table, pairs.pair, pairs.base, pairs.rest, pairs.first, pairs.second, pairs.step)
     times = player.line.seconds(keys.base) + keys.place * rate.control / rate.second
-    pair = table.first.searchsorted(keys.index, side="right") - 1
-    curves, start = [], 0
-    for stop in ((table.joined[keys.index] == 0).nonzero()[0] + 1).tolist():
-        left, right = divmod(int(pair[start]), len(table.phones))
-        index = keys.index[start:stop]
-        pose = table.poses[int(table.pose[index[0]])]
-        curves.append(Laid(table.phones[left], table.phones[right], pose, times[start:stop], table.weight[index]))
-        start = stop
+    pair = table.first.searchsorted(keys.strip, side="right") - 1
+    curves: list[Laid] = []
+    for i, strip in enumerate(keys.strip.tolist()):
+        here, weights = times[:, i], table.weight[:, strip]
+        if table.continues[strip]:
+            before = curves.pop()
+            here, weights = np.append(before.times, here[1:]), np.append(before.weights, weights[1:])
+        moves = np.append(True, (np.diff(here) > 0) | (np.diff(weights) != 0))  # without the repeated last key
+        left, right = divmod(int(pair[i]), len(table.phones))
+        pose = table.poses[int(table.pose[strip])]
+        curves.append(Laid(table.phones[left], table.phones[right], pose, here[moves], weights[moves]))
     return tuple(curves)
 
 

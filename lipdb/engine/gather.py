@@ -13,14 +13,14 @@ TINY = 1e-300
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Keys:
-    """The keys of a stretch of pairs on a grid, curve by curve, by time; each array ``(keys,)``.
+    """The keys of a stretch of pairs on a grid, strip by strip (see `CurveTable`).
 
-    A key stands *place* steps after grid point *base*; *index* is its number in the table.
+    Key ``(k, i)`` stands *place* ``(K, n)`` steps after grid point *base* ``(n,)``; *strip* ``(n,)`` is its number in the table.
     """
 
     base: Ints
     place: Floats
-    index: Ints
+    strip: Ints
 
 
 def gather(table: CurveTable, pair: Ints, base: Ints, rest: Ints, first: Ints, second: Ints, step: int) -> Keys:
@@ -34,16 +34,16 @@ def gather(table: CurveTable, pair: Ints, base: Ints, rest: Ints, first: Ints, s
     count -= begin
     begin -= count.cumsum()
     begin += count
-    index = begin.repeat(count)
-    index += np.arange(len(index))
-    place = table.left.take(index)
-    place *= first.astype(np.float64).repeat(count)
-    place += rest.astype(np.float64).repeat(count)
-    right = table.right.take(index)
-    right *= second.astype(np.float64).repeat(count)
+    strip = begin.repeat(count)
+    strip += np.arange(len(strip))
+    place = table.left.take(strip, axis=1)
+    place *= first.repeat(count).astype(np.float64)
+    place += rest.repeat(count).astype(np.float64)
+    right = table.right.take(strip, axis=1)
+    right *= second.repeat(count).astype(np.float64)
     place += right
     place /= step
-    return Keys(base.repeat(count), place, index)
+    return Keys(base.repeat(count), place, strip)
 
 
 def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, width: int) -> Floats:
@@ -53,19 +53,20 @@ def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, w
     also takes the keys within half a step of it, so that no peak falls between two.
     """
     out = np.zeros(len(row) * width)
-    start = (row * width - begin).take(table.pose.take(keys.index))
+    start = (row * width - begin).take(table.pose.take(keys.strip))
     start += keys.base
-    weight = table.weight.take(keys.index)
+    weight = table.weight.take(keys.strip, axis=1)
     if held:
         sharp = (start < held * width).nonzero()[0]
-        np.maximum.at(out, start[sharp] + np.floor(keys.place[sharp] + 0.5).astype(np.int64), weight[sharp])
-    if len(start):
-        _draw(out, start[:-1], keys.place, weight, table.joined.take(keys.index[:-1]))
+        nearest = np.floor(keys.place[:, sharp] + 0.5).astype(np.int64)
+        nearest += start[sharp]
+        np.maximum.at(out, nearest.reshape(-1), weight[:, sharp].reshape(-1))
+    _draw(out, start, keys.place, weight)
     return out.reshape(len(row), width)
 
 
-def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Floats) -> None:
-    """Draw straight lines from each key to the next, where *joined*, into flat *out* by maximum.
+def _draw(out: Floats, start: Ints, place: Floats, weight: Floats) -> None:
+    """Draw straight lines from each key to the next one of its strip into flat *out* by maximum.
 
     A line takes every grid point from one key to the other, both included. Lines that meet at most one grid point may
     be as steep as they like; the others change by at most 1 a step, so counting steps through them loses no digits.
@@ -76,8 +77,6 @@ def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Float
     count = np.floor(place[1:])
     count -= first
     count += 1
-    count *= joined
-    np.maximum(count, 0, out=count)
     np.maximum(width, TINY, out=width)
     value = first - place[:-1]
     value /= width
@@ -85,19 +84,19 @@ def _draw(out: Floats, start: Ints, place: Floats, weight: Floats, joined: Float
     value += weight[:-1]
     np.maximum(width, 1, out=width)
     rise /= width
-    offset = count.cumsum()
-    offset -= count
+    counts = count.reshape(-1).astype(np.int64)
+    offset = counts.cumsum().reshape(count.shape)
+    offset -= counts.reshape(count.shape)
     value -= np.multiply(rise, offset, out=width)
-    first -= offset
     begin = first.astype(np.int64)
     begin += start
-    counts = count.astype(np.int64)
-    at = begin.repeat(counts)
+    begin -= offset
+    at = begin.reshape(-1).repeat(counts)
     steps = np.arange(len(at))
     at += steps
-    values = rise.repeat(counts)
+    values = rise.reshape(-1).repeat(counts)
     values *= steps
-    values += value.repeat(counts)
+    values += value.reshape(-1).repeat(counts)
     values += GRAIN
     values -= GRAIN
     np.maximum.at(out, at, values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from itertools import chain
 
@@ -30,7 +31,7 @@ def flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints]:
         phone = np.fromiter(numbers, np.int64, int(sizes.sum()))
     except KeyError as error:
         raise CurveError(f"the table of curves has no phone {error.args[0]!r}; build it with every phone of the schedule") from None
-    edges = _whole([edges for edges, _ in lines], int(spans.sum()))
+    edges = _whole([edges for edges, _ in lines])
     heads = spans.cumsum() - spans
     short = edges[1:] <= edges[:-1]
     short[heads[1:] - 1] = False  # from one line's end to the next one's start time may run anyhow
@@ -41,16 +42,14 @@ def flat(table: CurveTable, lines: Sequence[Line]) -> tuple[Ints, Ints, Ints]:
     return _merged(edges, phone, sizes)
 
 
-def _whole(parts: Sequence[Sequence[int]], size: int) -> Ints:
+def _whole(parts: Sequence[Sequence[int]]) -> Ints:
     """All *parts* in one array. Raises `ScheduleError` for anything but whole numbers."""
-    if isinstance(parts[0], np.ndarray):
-        numbers = np.concatenate(parts).astype(np.float64)
-    else:
-        numbers = np.fromiter(chain.from_iterable(parts), np.float64, size)
-    whole = np.rint(numbers)
-    if not (np.isfinite(numbers).all() and (whole == numbers).all()):
-        raise ScheduleError("edges must be whole microseconds; round(seconds * 1_000_000) gives them")
-    return whole.astype(np.int64)
+    try:
+        if isinstance(parts[0], np.ndarray):
+            return np.concatenate(parts).astype(np.int64, casting="safe")
+        return np.frombuffer(array("q", chain.from_iterable(parts)), dtype=np.int64)
+    except (TypeError, OverflowError):
+        raise ScheduleError("edges must be whole microseconds; round(seconds * 1_000_000) gives them") from None
 
 
 def _merged(edges: Ints, phone: Ints, sizes: Ints) -> tuple[Ints, Ints, Ints]:

@@ -43,9 +43,12 @@ class Drawn(Protocol):
 class CurveTable:
     """The curves of every pair of *phones* (silence first) for every one of *poses*.
 
-    Pair ``(a, b)`` has the number ``a * N + b``; its keys are ``first[pair] : first[pair + 1]`` of the key arrays, by
-    pose and then by time. A key stands at ``left`` times the length of the first phone plus ``right`` times that of
-    the second after the pair's start; *joined* is 0 for the last key of each curve, else 1. Outside its keys a curve is 0.
+    Curves are cut into strips of *K* keys, so that numpy can take them side by side: the last key of a strip is the
+    first of the one that continues it, and the last key of a curve is repeated to fill its strip. Pair ``(a, b)`` has
+    the number ``a * N + b``; its strips are ``first[pair] : first[pair + 1]``, by pose and then by time. Each key, ``(K,
+    strips)``, stands at *left* times the length of the first phone plus *right* times that of the second after the
+    pair's start, and has *weight*; *pose* and *continues* ``(strips,)`` tell the pose, and whether the strip goes on with
+    the curve before it. Outside its keys a curve is 0.
     """
 
     phones: tuple[str, ...]
@@ -55,7 +58,7 @@ class CurveTable:
     right: Floats
     weight: Floats
     pose: Ints
-    joined: Floats
+    continues: Bools
     mean_reach: Floats
 
     @classmethod
@@ -67,30 +70,25 @@ class CurveTable:
         """
         names = (SILENCE, *(p for p in dict.fromkeys(phones) if p != SILENCE))
         count, pairs = len(names), len(names) ** 2
-        parts: list[tuple[Floats, Floats, Floats, int, int]] = []
+        parts: list[tuple[Floats, int, int]] = []
         reach = np.zeros((len(poses), count))
         for number, p in product(range(1, pairs), range(len(poses))):  # between silence and silence there is rest
             a, b = divmod(number, count)
             curve = curves.get((names[a], names[b], poses[p]))
             if curve is not None and curve.keys:
-                parts.append((*_placed(curve, f"curve {names[a]} {names[b]} {poses[p]}"), number, p))
+                parts.append((_placed(curve, f"curve {names[a]} {names[b]} {poses[p]}"), number, p))
                 reach[p, [a, b]] += _own_parts(curve) if a != b else max(_own_parts(curve))
-        lengths = np.array([len(part[0]) for part in parts], dtype=np.int64)
-        owner = np.repeat(np.array([part[3] for part in parts], dtype=np.int64), lengths)
-        joined = np.ones(int(lengths.sum()))
-        joined[np.cumsum(lengths) - 1] = 0
-        left, right, weight = (np.concatenate([part[i] for part in parts] or [np.zeros(0)]) for i in range(3))
-        weight = weight + GRAIN - GRAIN
-        pose_of = np.repeat(np.array([part[4] for part in parts], dtype=np.int64), lengths)
+        keys, owner = _strips([part[0] for part in parts])
+        numbers = np.array([part[1] for part in parts], dtype=np.int64)[owner]
         return cls(
             names,
             tuple(poses),
-            np.searchsorted(owner, np.arange(pairs + 1)),
-            left,
-            right,
-            weight,
-            pose_of,
-            joined,
+            np.searchsorted(numbers, np.arange(pairs + 1)),
+            keys[0],
+            keys[1],
+            keys[2] + GRAIN - GRAIN,
+            np.array([part[2] for part in parts], dtype=np.int64)[owner],
+            np.append(False, owner[1:] == owner[:-1])[: len(owner)],
             reach / max(2 * count - 2, 1),
         )
 
@@ -109,14 +107,28 @@ class CurveTable:
         With the shipped curves bmp closes PBM and f closes FV, and no other phone closes either.
         """
         largest = np.zeros(len(self.poses))
-        np.maximum.at(largest, self.pose, self.weight)
+        np.maximum.at(largest, self.pose, self.weight.max(axis=0))
         closes: Bools = (self.mean_reach >= REACH * largest[:, None]) & (largest[:, None] > 0)
         closes[:, 0] = False
         return closes
 
 
-def _placed(curve: Drawn, where: str) -> tuple[Floats, Floats, Floats]:
-    """Where the keys of *curve* stand in units of the first and of the second phone, and their weights."""
+def _strips(parts: list[Floats]) -> tuple[Floats, Ints]:
+    """Curves as strips of equal length, ``(3, K, strips)``, and which curve each strip is of; *K* makes the fewest lines."""
+    lines = np.array([part.shape[1] - 1 for part in parts], dtype=np.int64)
+    size = min(range(1, 9), key=lambda k: int((-(-lines // k) * (k + 1)).sum()))
+    owner = np.repeat(np.arange(len(parts)), -(-lines // size))
+    keys = np.zeros((3, size + 1, len(owner)))
+    strip = 0
+    for part in parts:
+        for start in range(0, part.shape[1] - 1, size):
+            keys[:, :, strip] = part[:, np.minimum(np.arange(start, start + size + 1), part.shape[1] - 1)]
+            strip += 1
+    return keys, owner
+
+
+def _placed(curve: Drawn, where: str) -> Floats:
+    """Where the keys of *curve* stand in units of the first and of the second phone, and their weights, ``(3, keys)``."""
     time, weight = np.array(curve.keys, dtype=np.float64).T
     bad = not (np.isfinite(time).all() and np.isfinite(weight).all()) or (np.diff(time) < 0).any()
     if bad or time[0] < 0 or time[-1] > 1 or weight.min() < 0 or weight.max() > 1:
@@ -127,9 +139,9 @@ def _placed(curve: Drawn, where: str) -> tuple[Floats, Floats, Floats]:
     if len(time) == 1:
         time, weight = np.repeat(time, 2), np.repeat(weight, 2)
     if curve.warp == "border":
-        return np.minimum(2 * time, 1), np.maximum(2 * time - 1, 0), weight
+        return np.array((np.minimum(2 * time, 1), np.maximum(2 * time - 1, 0), weight))
     if curve.warp == "linear":
-        return time, time, weight
+        return np.array((time, time, weight))
     raise CurveError(f"{where}: warp {curve.warp!r} is neither border nor linear")
 
 
