@@ -5,10 +5,12 @@ Commands are imported when they are asked for, so that `lipdb --help` answers at
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from importlib import import_module
 from types import FrameType
+from typing import Any
 
 import click
 
@@ -55,6 +57,15 @@ class Commands(click.Group):
         command: click.Command = getattr(import_module(module), attribute)
         return command
 
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; when the reader of its output goes away (`lipdb … | head`), end at once and well."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:
+            # What is still in the buffer must go somewhere when Python ends.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return None
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
         """List the commands without importing them."""
         with formatter.section("Commands"):
@@ -90,24 +101,19 @@ def main() -> None:
             signal.signal(number, _stop)
     try:
         cli(prog_name="lipdb", standalone_mode=False)
-    except click.exceptions.Exit as done:
-        sys.exit(done.exit_code)
     except click.Abort:
         sys.exit(130)
     except click.exceptions.NoArgsIsHelpError as error:
         error.show()
         sys.exit(error.exit_code)
-    except click.UsageError as error:
+    except click.ClickException as error:
+        ctx = getattr(error, "ctx", None)
         what = " ".join(error.format_message().split()).removesuffix(".")
-        click.echo(f"lipdb: {what}; see `{error.ctx.command_path if error.ctx else 'lipdb'} --help`", err=True)
+        click.echo(f"lipdb: {what}; see `{ctx.command_path if ctx else 'lipdb'} --help`", err=True)
         sys.exit(error.exit_code)
     except LipdbError as error:
         click.echo(f"lipdb: {error}", err=True)
         sys.exit(error.exit_code)
-    except BrokenPipeError:
-        # The reader of our output went away (`lipdb … | head`): nothing is left to tell it.
-        sys.stderr.close()
-        sys.exit(0)
     except OSError as error:
         where = error.filename or "standard output"
         click.echo(f"lipdb: {where}: {error.strerror or error}; free some space, or look whether you may use it", err=True)
