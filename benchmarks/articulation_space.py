@@ -19,7 +19,7 @@ CLOSING = ("PBM", "FV")
 """They change the opening too, but how they close is decided by what must hold (docs/curves.md), not by a fit."""
 WIDEST_OPEN = 0.5
 """The constraints of the pose set let the jaw open no further (constraints/facefx.tsv)."""
-LEAST = {("sh", "ShCh"): 0.45, ("w", "W"): 0.65, ("ow", "W"): 0.5, ("ao", "W"): 0.45}
+LEAST = {("sh", "ShCh"): 0.45, ("w", "W"): 0.75, ("ow", "W"): 0.5, ("ao", "W"): 0.45}
 """What must be seen whatever one speaker does: a funnel for sh (opening and width don't show it), round lips for who."""
 
 
