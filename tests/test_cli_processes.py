@@ -86,7 +86,7 @@ def talk(db: lipdb.Database, tmp_path_factory: pytest.TempPathFactory) -> list[s
 def test_a_disk_that_is_full_leaves_what_was_there(command: list[str], talk: list[str], tmp_path: Path, output: str) -> None:
     (tmp_path / output).write_bytes(b"before")
     done = subprocess.run(
-        [*command, *talk, "-o", output],
+        [*command, *talk, "-c", "robin" if output == "a.glb" else "flat", "-o", output],
         cwd=tmp_path,
         preexec_fn=limit_files,
         capture_output=True,
