@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -164,7 +163,7 @@ def test_an_unknown_pose_set_or_pose_is_refused():
 def test_a_pose_set_with_nothing_to_make_curves_from_is_refused_with_what_to_add():
     poses = {"poses/three.tsv": {("a",): {**SHIPPED["poses/facefx.tsv"][("open",)], "pose": "a"}}}
     book = CurveBook.from_records({**SHIPPED, **poses}, "three")
-    with pytest.raises(CurveError, match="targets/ and timing/"):
+    with pytest.raises(CurveError, match="targets/three.tsv"):
         book.find("d", "ah", "a")
 
 
@@ -178,16 +177,3 @@ def test_a_table_of_a_few_phones_plays_like_the_table_of_all():
     one, other = (animate(table, rules, edges, phones).weights for table in (few, everything))
     assert one.max() > 0.5
     assert one == pytest.approx(other, abs=1e-12)
-
-
-@pytest.mark.parametrize("pose_set", ["facefx", "crab"])
-def test_the_whole_set_compiles_in_an_instant(pose_set):
-    """60 ms for facefx on an idle machine; a busy one must not fail the suite."""
-    assert min(_seconds(pose_set) for _ in range(3)) < 0.6
-
-
-def _seconds(pose_set):
-    book = CurveBook.from_records(SHIPPED, pose_set, character="crab")
-    start = time.perf_counter()
-    book.table(phone for (phone,) in SHIPPED["common.tsv"])
-    return time.perf_counter() - start

@@ -16,7 +16,7 @@ from lipdb.curated.tsv import Records, Row
 from lipdb.curves.curve import Curve, CurveKey, curve_from_row
 from lipdb.curves.generate import Targets, generated, source_of
 from lipdb.curves.through import Link, carried, link_from_row
-from lipdb.errors import PhonesetError
+from lipdb.errors import CurveError, PhonesetError
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
@@ -194,6 +194,11 @@ class CurveBook:
     def _stand_in(self, phone: str) -> str:
         from lipdb.curves.nearest import stand_in
 
+        if not set(self._targets.phones) - {SILENCE}:
+            raise CurveError(
+                f"pose set {self.pose_set!r} has nothing to make curves from; add targets/{self.pose_set}.tsv and "
+                f"timing/{self.pose_set}.tsv, or links/{SHARED}/{self.pose_set}.tsv"
+            )
         return phone if phone in self._targets.phones else stand_in(phone, self._targets.phones, self._common)
 
     def _generate(self, left: str, right: str) -> dict[str, Curve]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from lipdb.curated.tsv import Row
-from lipdb.errors import CurveError
 from lipdb.phones.articulation import NEUTRAL, nearest
 from lipdb.schedule import SILENCE
 
@@ -16,7 +15,7 @@ def stand_in(phone: str, known: Sequence[str], common: Mapping[str, Row]) -> str
     """The one of *known* common phones that looks most like *phone*, by the segments that common.tsv gives as typical.
 
     A phone without a segment there is read as IPA itself; where that says nothing either, a neutral phone of its kind
-    (a vowel when the kind is not known) stands in. Raises `CurveError` when no phone is known.
+    (a vowel when the kind is not known) stands in. *known* holds one phone that is not silence, or more.
     """
     heard = {name: common[name]["ipa"] for name in known if name in common and name != SILENCE}
     row = common.get(phone, {})
@@ -25,7 +24,4 @@ def stand_in(phone: str, known: Sequence[str], common: Mapping[str, Row]) -> str
     neutral = NEUTRAL_CONSONANT if row.get("kind") == "consonant" else NEUTRAL
     if neutral in known:
         return neutral
-    others = [name for name in known if name != SILENCE]
-    if not others:
-        raise CurveError(f"nothing to make a curve for {phone!r} from; add targets/ and timing/ of its pose set, or links from facefx")
-    return others[0]
+    return next(name for name in known if name != SILENCE)
