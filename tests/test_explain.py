@@ -50,5 +50,5 @@ def test_the_command_uses_the_character_that_the_file_was_made_for(own_places: P
     assert CliRunner().invoke(cli, [*place, "say", "Hello", "-c", "crab", "-o", str(tmp_path / "a.json")]).exit_code == 0
     own = CliRunner().invoke(cli, [*place, "explain", str(tmp_path / "a.json"), "--at", "0.4", "--json"])
     other = CliRunner().invoke(cli, [*place, "explain", str(tmp_path / "a.json"), "--at", "0.4", "-c", "robin", "--json"])
-    assert [row["pose"] for row in json.loads(own.stdout)][0] == "mouth_open"
-    assert [row["pose"] for row in json.loads(other.stdout)][0] == "open"
+    assert next(row["pose"] for row in json.loads(own.stdout)) == "mouth_open"
+    assert next(row["pose"] for row in json.loads(other.stdout)) == "open"
