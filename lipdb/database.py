@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from lipdb.curves.curve import Curve, CurveKey
     from lipdb.curves.lookup import CurveBook
     from lipdb.performance import Performance
-    from lipdb.phones.phoneset import PhoneSet
+    from lipdb.phones.phoneset import PhoneSet, Unknown
     from lipdb.poses import PoseSet
     from lipdb.schedule import Schedule
     from lipdb.sound import Sound
@@ -150,9 +150,9 @@ class Database:
         from lipdb.speech.cache import spoken
 
         result = spoken(self.voice(language), text)
-        schedule, _ = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
+        schedule, unknown = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
         # A command line may hold bytes that are no text, which no file takes.
-        return Line(schedule, result.sound, text.encode(errors="replace").decode(), notes=result.notes)
+        return Line(schedule, result.sound, text.encode(errors="replace").decode(), notes=(*result.notes, *_by_articulation(unknown)))
 
     def sync(
         self,
@@ -184,10 +184,10 @@ class Database:
             line = Line(replace(raw, language=language, notation=notation or raw.notation), sound)
         try:
             self._check_curves(line)
-            schedule, _ = self.phoneset(line.language).resolve(line.schedule, line=line.mapping, allow_unknown=allow_unknown)
+            schedule, unknown = self.phoneset(line.language).resolve(line.schedule, line=line.mapping, allow_unknown=allow_unknown)
         except InputError as error:
             raise type(error)(f"{path}: {error}") from error
-        return replace(line, schedule=schedule, notes=_fit(schedule, sound))
+        return replace(line, schedule=schedule, notes=(*_fit(schedule, sound), *_by_articulation(unknown)))
 
     # From a line to a moving face
 
@@ -274,6 +274,11 @@ def _fit(schedule: Schedule, sound: Sound | None) -> tuple[str, ...]:
     if sound is None or sound.duration > last - SHORT:
         return ()
     return (f"the recording ends at {sound.duration:.2f} s, but its phones at {last:.2f} s; is it the right one?",)
+
+
+def _by_articulation(unknown: tuple[Unknown, ...]) -> tuple[str, ...]:
+    """A note for each symbol that no table knows and that was mapped all the same."""
+    return tuple(f"unknown symbol {symbol} was mapped by articulation" for symbol in unknown)
 
 
 def _known(name: str, known: Mapping[str, object], what: str) -> str:

@@ -1,5 +1,6 @@
 """Wave files of any width are read as 16-bit samples of one channel."""
 
+import struct
 import wave
 from pathlib import Path
 
@@ -28,6 +29,16 @@ def test_every_width_and_the_first_channel(tmp_path: Path, width: int, frame: by
         file.setframerate(8000)
         file.writeframes(frame * 3)
     assert read_wav(tmp_path / "a.wav").samples.tolist() == [0x4000] * 3
+
+
+def test_the_extensible_format_of_recorders_is_read(tmp_path: Path) -> None:
+    frames = b"\xff\x00\x40" * 2 * 3
+    layout = struct.pack("<HHIIHHHHI", 0xFFFE, 2, 48000, 48000 * 6, 6, 24, 22, 24, 3)
+    guid = bytes.fromhex("0100000000001000800000aa00389b71")
+    body = b"WAVE" + b"fmt " + struct.pack("<I", 40) + layout + guid + b"data" + struct.pack("<I", len(frames)) + frames
+    (tmp_path / "a.wav").write_bytes(b"RIFF" + struct.pack("<I", len(body)) + body)
+    sound = read_wav(tmp_path / "a.wav")
+    assert (sound.rate, sound.samples.tolist()) == (48000, [0x4000] * 3)
 
 
 @pytest.mark.parametrize("content", [b"", b"RIFF", b"RIFF\x04\x00\x00\x00WAVE", b"not a wave file at all, but text"])

@@ -19,7 +19,7 @@ PACKAGES = ("numpy", "pandas", "pyarrow", "sqlalchemy", "phonemizer", "espeakng-
 @json_option
 @click.pass_obj
 def doctor(options: Options, as_json: bool) -> None:
-    """Show what is installed, what works, and how to mend the rest. Exit code 8 when something is missing.
+    """Show what is installed, what works, and how to mend the rest. Exit code 8 when something is missing or broken.
 
     \b
     Example:
@@ -27,7 +27,7 @@ def doctor(options: Options, as_json: bool) -> None:
     """
     rows = [*_packages(), *(_try(part, check, options) for part, check in CHECKS.items())]
     print_listing(rows, as_json=as_json, columns=("part", "state", "detail"))
-    if any(row["state"] == "missing" for row in rows):
+    if any(row["state"] != "ok" for row in rows):
         sys.exit(MissingToolError.exit_code)
 
 
@@ -44,7 +44,7 @@ def _try(part: str, check: Callable[[Options], str], options: Options) -> dict[s
     try:
         return {"part": part, "state": "ok", "detail": check(options)}
     except LipdbError as error:
-        return {"part": part, "state": "missing", "detail": str(error)}
+        return {"part": part, "state": "missing" if isinstance(error, MissingToolError) else "broken", "detail": str(error)}
 
 
 def _database(options: Options) -> str:

@@ -28,7 +28,7 @@ def phones(options: Options, text: str, language: str, character: str | None, as
         if character is not None:
             db.character(character)
         line = db.say(text, language=language, allow_unknown=True)
-        schedule, unknown = db.phoneset(language, character=character).resolve(line.schedule, allow_unknown=True)
+        schedule, _ = db.phoneset(language, character=character).resolve(line.schedule, allow_unknown=True)
         rows = [
             {
                 "word": schedule.words[phone.word] if phone.word >= 0 else "",
@@ -41,8 +41,8 @@ def phones(options: Options, text: str, language: str, character: str | None, as
             for phone in schedule.phones
         ]
         print_listing(rows, as_json=as_json)
-        for symbol in unknown:
-            click.echo(f"lipdb: {symbol}", err=True)
+        for note in line.notes:
+            click.echo(f"lipdb: {note}", err=True)
 
 
 @click.command(short_help="Show the phone pairs of a text and where their curves come from.")

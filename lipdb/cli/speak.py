@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lipdb.cli.options import F, Options, json_option, print_json, print_listing
+from lipdb.cli.options import F, Options, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import InputError
 
 if TYPE_CHECKING:
@@ -108,7 +108,8 @@ def _deliver(db: Database, line: Line, *, character: str, fps: float, outputs: t
         return
     take = db.animate(line, character=character, fps=fps)
     for path in outputs:
-        take.save(path)
+        with progress_bar():
+            take.save(path)
         if not as_json:
             click.echo(f"wrote {path}")
     if as_json:

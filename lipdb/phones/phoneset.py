@@ -30,6 +30,10 @@ class Unknown:
     proposal: str
     reason: str
 
+    def __str__(self) -> str:
+        nearest = f"nearest {self.proposal!r}, " if self.proposal else ""
+        return f"{shortened(self.symbol)!r} ({self.count}x, {nearest}{self.reason})"
+
 
 class PhoneSet:
     """The phones of a language as a character says them; iterating gives what each of them maps to."""
@@ -153,12 +157,9 @@ class PhoneSet:
         return (" ".join(self.symbols.parts(alike[0], notation)), f"written nearly as {alike[0]!r}") if alike else None
 
     def _complaint(self, unknown: tuple[Unknown, ...], notation: str) -> str:
-        each = (
-            f"{shortened(u.symbol)!r} ({u.count}x" + (f", nearest {u.proposal!r}, {u.reason})" if u.proposal else f", {u.reason})")
-            for u in unknown
-        )
         return (
-            f"{self.language}: {len(unknown)} unknown symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: {'; '.join(each)}. "
+            f"{self.language}: {len(unknown)} unknown symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: "
+            f"{'; '.join(map(str, unknown))}. "
             f"Add rows to {self.language}/aliases.tsv, or use --allow-unknown to map by articulation"
         )
 

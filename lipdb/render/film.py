@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lipdb.errors import MeshError
+from lipdb.progress import steps
 from lipdb.render.flat import Pictures
 from lipdb.render.renderer import Renderer
 from lipdb.track import Track
@@ -41,6 +42,10 @@ def stills(
     performance: Performance, times: NDArray[np.float64], *, size: tuple[int, int], view: str = "front"
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture at each of *times* (seconds, in order)."""
+    yield from steps(_drawn(performance, times, size=size, view=view), total=len(times), what=f"drawing {performance.character.name}")
+
+
+def _drawn(performance: Performance, times: NDArray[np.float64], *, size: tuple[int, int], view: str) -> Iterator[NDArray[np.uint8]]:
     character = performance.character
     if character.pictures:
         pictures = Pictures(character.pictures, size=size)

@@ -72,7 +72,7 @@ def read_picture(file: Path, width: int, height: int) -> NDArray[np.uint8]:
             image = opened.convert("RGBA")
             return np.asarray(image if image.size == fitted else image.resize(fitted, Image.Resampling.LANCZOS))
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
-        raise MeshError(f"{file}: not a PNG or SVG picture of at most {LARGEST_FILE >> 20} MiB ({error}); draw it again") from error
+        raise MeshError(f"{file}: not a PNG or SVG picture of at most {LARGEST_FILE >> 20} MiB; draw it again") from error
 
 
 def _svg_to_png(file: Path, data: bytes, width: int) -> bytes:

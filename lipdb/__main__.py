@@ -1,0 +1,5 @@
+"""``python -m lipdb`` is ``lipdb``."""
+
+from lipdb.cli import main
+
+main()
