@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -85,3 +86,8 @@ def test_work_on_the_opengl_thread_is_done_in_order_on_one_thread_and_errors_com
     assert threading.current_thread().name not in names
     with pytest.raises(ZeroDivisionError):
         on_gl_thread(lambda: 1 / 0)
+
+
+def test_the_thread_that_owns_opengl_may_ask_for_itself() -> None:
+    """Python may close an abandoned film there, when it collects garbage in the middle of a call."""
+    assert on_gl_thread(lambda: on_gl_thread(lambda: threading.current_thread().name)).startswith("lipdb-gl")

@@ -12,6 +12,7 @@ import ctypes
 import ctypes.util
 import os
 import sys
+import threading
 import types
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -31,11 +32,22 @@ _OSMESA = {"DEPTH_BITS": 0x30, "STENCIL_BITS": 0x31, "ACCUM_BITS": 0x32, "PROFIL
 _OSMESA |= {"COMPAT_PROFILE": 0x35, "CONTEXT_MAJOR_VERSION": 0x36, "CONTEXT_MINOR_VERSION": 0x37}
 
 _thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lipdb-gl")
+_here = threading.local()
 
 
 def on_gl_thread(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
-    """What *function* returns, called on the thread that owns OpenGL."""
-    return _thread.submit(function, *args, **kwargs).result()
+    """What *function* returns, called on the thread that owns OpenGL.
+
+    That thread itself may come here: Python closes an abandoned film on whatever thread collects its garbage.
+    """
+    if getattr(_here, "owns", False):
+        return function(*args, **kwargs)
+    return _thread.submit(_owning, function, *args, **kwargs).result()
+
+
+def _owning(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+    _here.owns = True
+    return function(*args, **kwargs)
 
 
 @cache
