@@ -19,8 +19,20 @@ CLOSING = ("PBM", "FV")
 """They change the opening too, but how they close is decided by what must hold (docs/curves.md), not by a fit."""
 WIDEST_OPEN = 0.5
 """The constraints of the pose set let the jaw open no further (constraints/facefx.tsv)."""
-LEAST = {("sh", "ShCh"): 0.45, ("w", "W"): 0.75, ("ow", "W"): 0.5, ("ao", "W"): 0.45}
-"""What must be seen whatever one speaker does: a funnel for sh (opening and width don't show it), round lips for who."""
+LIMITS = {
+    ("sh", "ShCh", "target"): (0.45, 1.0),
+    ("w", "W", "target"): (0.75, 1.0),
+    ("ow", "W", "target"): (0.5, 1.0),
+    ("ow", "W", "glide"): (0.6, 1.0),
+    ("ao", "W", "target"): (0.45, 1.0),
+    ("aw", "W", "glide"): (0.4, 1.0),
+    ("z", "open", "target"): (0.0, 0.18),
+    ("sh", "open", "target"): (0.0, 0.12),
+}
+"""What must be seen whatever one speaker does: a funnel for sh, round lips for who, teeth nearly shut for a hiss.
+
+Opening and width of the lips don't tell a jaw that drops from lips that part.
+"""
 
 
 @dataclass(frozen=True)
@@ -59,12 +71,12 @@ class Space:
         target, glide = float(self.start.target[n, p]), float(self.start.glide[n, p])
         moved = max(target, glide) > 0
         if phone != SILENCE and (phone, pose) != ("bmp", "open") and (moved or pose != "ShCh"):
-            low, high = LEAST.get((phone, pose), 0.0), WIDEST_OPEN if pose == "open" else 1.0
+            high = WIDEST_OPEN if pose == "open" else 1.0
             # A pose that articulation does not ask for may show a little, no more.
             sd = 0.15 if moved or pose == "open" else 0.06
-            self._add("target", n, p, target, sd, low, high)
+            self._add("target", n, p, target, sd, *LIMITS.get((phone, pose, "target"), (0.0, high)))
             if glide != target:
-                self._add("glide", n, p, glide, sd, low, high)
+                self._add("glide", n, p, glide, sd, *LIMITS.get((phone, pose, "glide"), (0.0, high)))
         if pose != "ShCh":
             self._add("insistence", n, p, float(np.log(self.start.insistence[n, p])), 0.7, -3.0, 3.0)
             for field in ("before", "after"):

@@ -25,6 +25,8 @@ from lipdb.schedule import SILENCE
 
 Floats = NDArray[np.float64]
 
+OPENING = 1.5
+"""How much more opening counts than width: it is what people see first."""
 STEPS = ((0.3, 8), (0.15, 8), (0.08, 6))
 """Width of the finite differences, in units of how far a number may stray, and the most steps with it."""
 
@@ -67,7 +69,8 @@ class Lips:
 
     def residuals(self, lips: Floats, mask: Floats) -> Floats:
         """Predicted minus measured, both standardised by sentence over the frames of *mask*; opening, then width."""
-        return np.concatenate([self._standard(lips[:, k], mask) - self._standard(self.truth[:, k], mask) for k in (0, 1)])
+        parts = [self._standard(lips[:, k], mask) - self._standard(self.truth[:, k], mask) for k in (0, 1)]
+        return np.concatenate([np.sqrt(OPENING) * parts[0], parts[1]])
 
     def scores(self, lips: Floats) -> tuple[float, float]:
         """The mean over sentences of Pearson's r for opening and for width, as the scorer gives them."""
