@@ -32,8 +32,10 @@ HANDOVER = 0.15
 """Normalised time that a pair takes to fall silent past the middle of a phone, where the next pair takes over."""
 SHORTEST = 0.04
 """Normalised time that any way from one target to another takes at least."""
-NEGLIGIBLE = 0.01
+NEGLIGIBLE = 0.02
 """A curve that stays below this weight is left out; no eye sees it."""
+TOLERANCE = 0.005
+"""Weight by which a line may miss a key that is left out."""
 NUMBERS = ("target", "glide", "insistence", "before", "after")
 OWN: Source = ("lipdb", "Apache-2.0")
 
@@ -135,7 +137,7 @@ def shapes(targets: Targets, left: NDArray[np.intp], right: NDArray[np.intp]) ->
 
 
 def thinned(times: Array, weights: Array) -> Keys:
-    """The fewest of the keys that draw the same line to half of the last decimal; none for a negligible curve.
+    """Those of the keys that draw the line to `TOLERANCE`, since each key costs the engine time; none for a negligible curve.
 
     The key on the border stays: phones of unequal length bend the line there.
     """
@@ -148,7 +150,7 @@ def thinned(times: Array, weights: Array) -> Keys:
             continue
         (t0, w0), (t1, w1), (t2, w2) = kept[-1], here, after
         line = w0 + (w2 - w0) * (t1 - t0) / (t2 - t0) if t2 > t0 else w1 + 1
-        if abs(w1 - line) > 0.5 * 10.0**-DECIMALS or (t1 == BORDER and w0 != w2):
+        if abs(w1 - line) > TOLERANCE or (t1 == BORDER and w0 != w2):
             kept.append(here)
     kept.append(keys[-1])
     first = next(n for n, (_, weight) in enumerate(kept) if weight)
