@@ -31,8 +31,8 @@ _EGL_PLATFORM_DEVICE = 0x313F
 _OSMESA = {"DEPTH_BITS": 0x30, "STENCIL_BITS": 0x31, "ACCUM_BITS": 0x32, "PROFILE": 0x33, "CORE_PROFILE": 0x34}
 _OSMESA |= {"COMPAT_PROFILE": 0x35, "CONTEXT_MAJOR_VERSION": 0x36, "CONTEXT_MINOR_VERSION": 0x37}
 
-_thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lipdb-gl")
 _here = threading.local()
+_thread = ThreadPoolExecutor(1, "lipdb-gl", initializer=lambda: setattr(_here, "owns", True))
 
 
 def on_gl_thread(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
@@ -42,12 +42,7 @@ def on_gl_thread(function: Callable[Arguments, Result], *args: Arguments.args, *
     """
     if getattr(_here, "owns", False):
         return function(*args, **kwargs)
-    return _thread.submit(_owning, function, *args, **kwargs).result()
-
-
-def _owning(function: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
-    _here.owns = True
-    return function(*args, **kwargs)
+    return _thread.submit(function, *args, **kwargs).result()
 
 
 @cache
