@@ -53,9 +53,15 @@ def test_two_programs_may_make_the_same_database_at_once(tmp_path: Path) -> None
     assert sorted(file.name for file in tmp_path.iterdir()) == ["0.csv", "1.csv", "new.db"]
 
 
+def heed_interrupts() -> None:
+    """A shell that runs the tests in the background lets its programs ignore Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_stopped_in_the_middle_of_a_video_it_leaves_nothing(command: list[str], tmp_path: Path, number: signal.Signals, code: int) -> None:
-    with subprocess.Popen([*command, "say", f"{TEXT}, " * 200, "-o", "a.mp4"], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as running:
+    arguments = [*command, "say", f"{TEXT}, " * 200, "-o", "a.mp4"]
+    with subprocess.Popen(arguments, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_interrupts) as running:
         begun = time.monotonic()
         while not hidden(tmp_path):
             assert running.poll() is None

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from contextlib import suppress
 from importlib import import_module
 from types import FrameType
 from typing import Any
@@ -117,6 +118,10 @@ def main() -> None:
     except OSError as error:
         where = error.filename or "standard output"
         click.echo(f"lipdb: {where}: {error.strerror or error}; free some space, or look whether you may use it", err=True)
+        if error.filename is None and sys.stdout is not None:
+            # What could not be written would be tried again at the end, and change the exit code.
+            with suppress(OSError):
+                sys.stdout.close()
         sys.exit(OutputError.exit_code)
     except MemoryError:
         click.echo("lipdb: this needs more memory than there is; give fewer frames a second, or a shorter line", err=True)
