@@ -11,7 +11,7 @@ from lipdb.render.gl import backend
 from lipdb.render.renderer import Renderer
 
 PICTURES = 30
-SIZE = 640
+SIZE = 512
 
 
 def milliseconds(character: str, painter: str) -> float:

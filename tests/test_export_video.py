@@ -48,7 +48,7 @@ def test_mp4_holds_every_frame_and_all_of_the_sound_in_time(tmp_path: Path) -> N
     take.save(tmp_path / "a.mp4")
     pictures, samples, rate = _decoded(tmp_path / "a.mp4")
     assert take.sound is not None
-    assert (len(pictures), pictures[0].shape, rate) == (30, (640, 640, 3), 16000)
+    assert (len(pictures), pictures[0].shape, rate) == (30, (512, 512, 3), 16000)
     assert abs(len(samples) / rate - take.sound.duration) < 0.1
     # The encoder's delay is known to players through the file; what is left must be the same tone at the same place.
     original = take.sound.samples / 32768

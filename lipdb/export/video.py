@@ -33,7 +33,7 @@ WEBP_SIZE = (480, 480)
 
 
 def write_mp4(performance: Performance, path: Path) -> None:
-    """H.264 and AAC, 640 x 640 at 30 frames a second. Raises `MissingToolError` without PyAV."""
+    """H.264 and AAC, 512 x 512 at 30 frames a second. Raises `MissingToolError` without PyAV."""
     try:
         import av
     except ImportError as error:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lipdb.performance import Performance
 
 FPS = 30
-SIZE = (640, 640)
+SIZE = (512, 512)
 
 
 def film(performance: Performance, *, fps: float = FPS, size: tuple[int, int] = SIZE, view: str = "front") -> Iterator[NDArray[np.uint8]]:

@@ -27,7 +27,7 @@ _OUTSIDE = re.compile(rb"""(?:href|src)\s*=\s*["'](?!\s*(?:\#|data:))|url\(\s*["
 class Pictures:
     """Draws the pictures of *files* (shape to SVG or PNG) at *size* (width, height); each is read when it is first shown."""
 
-    def __init__(self, files: Mapping[str, Path], *, size: tuple[int, int] = (640, 640)) -> None:
+    def __init__(self, files: Mapping[str, Path], *, size: tuple[int, int] = (512, 512)) -> None:
         self._files, self._size = files, size
         self._wall = encode(background(*size))
         self._drawn: dict[str, NDArray[np.uint8]] = {}

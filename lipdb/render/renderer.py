@@ -41,7 +41,7 @@ class Renderer:
     Raises `MeshError` for a mesh without triangles, `InputError` for a size or view that can't be.
     """
 
-    def __init__(self, mesh: Mesh, *, size: tuple[int, int] = (640, 640), view: str = "front", painter: str = "") -> None:
+    def __init__(self, mesh: Mesh, *, size: tuple[int, int] = (512, 512), view: str = "front", painter: str = "") -> None:
         width, height = size
         if not (0 < width <= LARGEST and 0 < height <= LARGEST):
             raise InputError(f"picture size {width}x{height}: each side must be 1 to {LARGEST} pixels")
