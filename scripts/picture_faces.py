@@ -24,7 +24,7 @@ def main() -> None:
         middle = {phone.symbol: time for phone, time in zip(line.schedule.phones, (edges[:-1] + edges[1:]) / 2, strict=True)}
         times = np.array([middle[symbol] for symbol in SHOWN])
         rows = [np.hstack(list(stills(db.animate(line, character=name), times, size=(CELL, CELL)))) for name in FACES]
-    Image.fromarray(np.vstack(rows)).quantize(192).save(TARGET, optimize=True)
+    Image.fromarray(np.vstack(rows)).save(TARGET, optimize=True)
     print(f"wrote {TARGET}")
 
 
