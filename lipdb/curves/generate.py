@@ -32,9 +32,9 @@ HANDOVER = 0.15
 """Normalised time that a pair takes to fall silent past the middle of a phone, where the next pair takes over."""
 SHORTEST = 0.04
 """Normalised time that any way from one target to another takes at least."""
-NEGLIGIBLE = 0.04
+NEGLIGIBLE = 0.05
 """A curve that stays below this weight is left out; no eye sees it."""
-TOLERANCE = 0.012
+TOLERANCE = 0.03
 """Weight by which a line may miss a key that is left out."""
 NUMBERS = ("target", "glide", "insistence", "before", "after")
 OWN: Source = ("lipdb", "Apache-2.0")
