@@ -208,6 +208,8 @@ TABLES: tuple[Table, ...] = (
     ),
     # How words are read where the language's own reader can't know: pinyin with tone numbers for Mandarin.
     Table("{language}/readings.tsv", _columns("word reading " + _SOURCED, word=_name, source=_name), ("word",)),
+    # Sentences written for the project, in which between them every phone occurs: what a language is tried on.
+    Table("{language}/sentences.tsv", _columns("sentence " + _SOURCED, source=_name), ("sentence",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
     # A character. *drawing* is `built:NAME` for the shipped ones, else `mesh.glb` or `pictures`: what stands in the
     # character's folder. *shapes* names the set whose shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to
