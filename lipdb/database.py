@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from lipdb import plugins
-from lipdb.decisions import Cause, PairUse
+from lipdb.decisions import Cause, PairUse, pair_uses
 from lipdb.errors import InputError
 from lipdb.line import Line
 from lipdb.schedule import MICROSECONDS, SILENCE
@@ -235,14 +235,17 @@ class Database:
 
     def pairs(self, line: Line, *, character: str | Character = DEFAULT_CHARACTER) -> list[PairUse]:
         """Every pair of common phones in *line*, most frequent first, with the winning curve of every pose."""
-        who, line, book = self._prepare(line, character)
+        _, line, book = self._prepare(line, character)
         _, phones = line.schedule.common()
         counts = Counter(pair for pair in pairwise((SILENCE, *phones, SILENCE)) if pair != (SILENCE, SILENCE))
-        poses = self.pose_set(who.pose_set).poses
-        return [
-            PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in poses})
-            for (left, right), count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-        ]
+        return pair_uses(book, sorted(counts.items(), key=lambda item: (-item[1], item[0])))
+
+    def uses(
+        self, counts: Mapping[tuple[str, str], float], *, language: str, character: str | Character = DEFAULT_CHARACTER
+    ) -> list[PairUse]:
+        """The pairs of *counts*, in its order, with the winning curve of every pose of *character* in *language*."""
+        who = self.character(character) if isinstance(character, str) else character
+        return pair_uses(self.book(who.pose_set, language=language, character=who.name), counts.items())
 
     def explain(self, line: Line, *, at: float, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS) -> list[Cause]:
         """What made each pose's weight at the frame nearest to *at* seconds, in the order of the pose set.

@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from lipdb.curves.lookup import trust
+
 if TYPE_CHECKING:
-    from lipdb.curves.lookup import Found
+    from lipdb.curves.lookup import CurveBook, Found
+
+FALL_BACK = "fall-back"
+ORIGINS = ("authored", "fitted", "imported", "generated", FALL_BACK)
+"""Where a curve comes from, the most worked on first; a fall-back stands in no table."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairUse:
-    """A phone pair that a line needs: how often, and the winning curve of every pose."""
+    """A phone pair that a line or a corpus needs: how often, and the winning curve of every pose."""
 
     left: str
     right: str
-    count: int
+    count: float
     curves: Mapping[str, Found]
+
+    @property
+    def pair(self) -> tuple[str, str]:
+        """Left and right phone."""
+        return self.left, self.right
 
     @property
     def missing(self) -> list[str]:
@@ -29,9 +40,24 @@ class PairUse:
         """Whether the curve of some pose is neither authored nor fitted: work for an artist."""
         return any(found.curve.origin not in ("authored", "fitted") for found in self.curves.values())
 
+    @property
+    def moving(self) -> list[Found]:
+        """What moves the face; all that there is when nothing does."""
+        return [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
+
+    @property
+    def origin(self) -> str:
+        """The least worked on of the origins of what moves the face, ``fall-back`` for what no table has."""
+        return max((FALL_BACK if found.fallback else found.curve.origin for found in self.moving), key=ORIGINS.index)
+
+    @property
+    def layer(self) -> str:
+        """The least specific of the layers of what moves the face."""
+        return max((found.layer for found in self.moving), key=trust)
+
     def to_row(self) -> dict[str, Any]:
         """Plain data for a listing."""
-        moving = [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
+        moving = self.moving
         return {
             "left": self.left,
             "right": self.right,
@@ -41,6 +67,11 @@ class PairUse:
             "poses": [pose for pose, found in self.curves.items() if found.curve.keys],
             "missing": self.missing,
         }
+
+
+def pair_uses(book: CurveBook, counts: Iterable[tuple[tuple[str, str], float]]) -> list[PairUse]:
+    """What *book* has for every pair of *counts*, in its order."""
+    return [PairUse(left, right, count, {pose: book.find(left, right, pose) for pose in book.poses}) for (left, right), count in counts]
 
 
 @dataclass(frozen=True, slots=True)

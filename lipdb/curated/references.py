@@ -77,7 +77,8 @@ def _set(column: str) -> Reference:
 
 
 _COMMON = Reference("common", "common phone", _common, many=True)
-_CURVE = (Reference("left", "common phone", _common), Reference("right", "common phone", _common), Reference("pose", "pose", _set_poses))
+_PAIR = (Reference("left", "common phone", _common), Reference("right", "common phone", _common))
+_CURVE = (*_PAIR, Reference("pose", "pose", _set_poses))
 SOURCE = Reference("source", "source", lambda names, _parts, _row: names.sources)
 
 REFERENCES: Mapping[str, tuple[Reference, ...]] = {
@@ -90,6 +91,7 @@ REFERENCES: Mapping[str, tuple[Reference, ...]] = {
         Reference("shape", "pose of the other set", lambda names, parts, _row: names.poses(parts["target"])),
     ),
     "curves/{pose_set}.tsv": _CURVE,
+    "frequencies/{corpus}.tsv": _PAIR,
     "targets/{pose_set}.tsv": (Reference("phone", "common phone", _common), Reference("pose", "pose", _set_poses)),
     "timing/{pose_set}.tsv": (Reference("phone", "common phone", _common),),
     "{language}/phones.tsv": (_COMMON,),

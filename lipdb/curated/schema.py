@@ -169,6 +169,12 @@ TABLES: tuple[Table, ...] = (
     ),
     Table("links/{pose_set}/{target}.tsv", _LINK, ("pose", "shape")),
     Table("curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
+    # How often pairs of common phones occur, in per cent of all, as somebody published it: what counts are compared with.
+    Table(
+        "frequencies/{corpus}.tsv",
+        _columns("left right percent " + _SOURCED, left=_name, right=_name, percent=_number, source=_name),
+        ("left", "right"),
+    ),
     # What the shared curves are generated from. *glide* is the second target of a phone that moves, such as a diphthong
     # (empty: it stays at the first); *before* and *after* are what a phone adds to its neighbours' targets (empty: nothing).
     Table(

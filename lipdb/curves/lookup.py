@@ -180,7 +180,7 @@ class CurveBook:
         curve = carried(self._links[pose], {name: found.curve for name, found in sources.items()})
         # The layer to name is that of the least trusted curve that takes part.
         parts = [found for found in sources.values() if found.curve.keys] or list(sources.values())
-        worst = max(parts, key=lambda found: _trust(found.layer), default=None)
+        worst = max(parts, key=lambda found: trust(found.layer), default=None)
         layer, reason = (worst.layer, worst.reason) if worst else ("common", "no link leads to this pose, so it is at rest")
         return Found(curve, f"{layer} via {SHARED}", self.pose_set, reason)
 
@@ -224,7 +224,7 @@ def _layers(
     return tuple(layer for layer in layers if layer.curves)
 
 
-def _trust(layer: str) -> int:
+def trust(layer: str) -> int:
     """Larger for layers that are less specific, largest for curves made for the moment."""
     kinds = ("line", "character", "language", "common", GENERATED, NEAREST)
     return kinds.index(layer.split(":")[0].split()[0])
