@@ -126,7 +126,7 @@ def phonemize(text: str, voice: str) -> list[list[str]]:
 
 @cache
 def _phonemizer(voice: str) -> Any:
-    """One wrapper a voice: each keeps a library of its own, and never gives its memory back."""
+    """One wrapper a voice: each keeps a library of its own, and never gives its memory back. Raises `PhonesetError`."""
     library, data = find_espeak()
     os.environ.setdefault("PHONEMIZER_ESPEAK_LIBRARY", str(library))
     if data:
@@ -134,7 +134,10 @@ def _phonemizer(voice: str) -> Any:
     from phonemizer.backend.espeak.wrapper import EspeakWrapper
 
     wrapper = EspeakWrapper()
-    wrapper.set_voice(voice)
+    try:
+        wrapper.set_voice(voice)
+    except RuntimeError as error:
+        raise libespeak.no_such_voice(voice) from error
     return wrapper
 
 

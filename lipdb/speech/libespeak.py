@@ -109,6 +109,11 @@ def espeak_version() -> str:
         return str(library.espeak_Info(None).decode().split()[0]) + package
 
 
+def no_such_voice(voice: str) -> PhonesetError:
+    """What to say of a voice that espeak-ng does not have."""
+    return PhonesetError(f"espeak-ng has no voice {voice!r}; mend the column voice of the language's language.tsv")
+
+
 def speak(text: str, voice: str, *, phonemes: bool = False) -> Utterance:
     """Synthesise *text* with espeak's *voice*, after 0.25 s of silence, in which a mouth prepares, and before 0.3 s.
 
@@ -123,7 +128,7 @@ def speak(text: str, voice: str, *, phonemes: bool = False) -> Utterance:
             raise MissingToolError("espeak-ng: its data can't be read; run `pip install --force-reinstall espeakng-loader`")
         try:
             if library.espeak_SetVoiceByName(voice.encode()) != 0:
-                raise PhonesetError(f"espeak-ng has no voice {voice!r}; mend the column voice of the language's language.tsv")
+                raise no_such_voice(voice)
             library.espeak_ng_SetRandSeed(ctypes.c_long(SEED))
             with _tracing(library) as clauses:
                 samples, events = _synthesise(library, text.encode("utf-8"), flags)
