@@ -40,6 +40,18 @@ def test_full_width_styled_and_ligature_letters_become_plain():
     assert clean("ｈｅｌｌｏ 𝐛𝐨𝐥𝐝 ﬁne Ⅷ").text == "hello bold fine VIII"
 
 
+def test_arabic_is_read_however_it_was_typed():
+    assert clean("\ufedb\ufe98\ufe8e\ufe8f").text == "كتاب"
+    assert clean("الســـلام").text == "السلام"
+    for typed in ("\u0651\u064e", "\u064e\u0651"):
+        assert clean(f"ثم{typed}").text == "ثم\u0651\u064e"
+
+
+def test_signs_of_devanagari_stay_and_its_joiners_vanish():
+    assert clean("क्\u200dया हुआ?").text == "क्या हुआ?"
+    assert clean("ज़िंदगी १२ हूँ।").text == "ज़िंदगी १२ हूँ।"
+
+
 def test_powers_and_fractions_keep_their_meaning():
     assert clean("x² ½ 20 °C").text == "x² ½ 20 °C"
 
@@ -89,6 +101,18 @@ def test_another_script_is_refused_with_what_and_where(text: str, script: str, w
 @pytest.mark.parametrize("text", ["naïve café, Łódź", "5 µm of α", "$3.50 — 24/7!", "1ª 2º", "3½ cups of H₂O", "Henry Ⅷ", "β-test"])
 def test_letters_of_the_script_and_symbols_pass(text: str):
     check_script(text, "Latn", language="en")
+
+
+@pytest.mark.parametrize(
+    ("text", "script"),
+    [
+        ("Её объём — 5 кг!", "Cyrl"),
+        ("मैं १२ किताबें पढ़ूँगा, ठीक है? ॐ", "Deva"),
+        ("هَلْ قَرَأْتَ ٢٥ كِتَابًا؟ ﷲ", "Arab"),
+    ],
+)
+def test_vowel_signs_and_digits_of_other_scripts_pass(text: str, script: str):
+    check_script(clean(text).text, script, language="xx")
 
 
 def test_an_unknown_script_allows_all():

@@ -42,8 +42,11 @@ _PHONEMIZING = threading.Lock()
 SWITCH = re.compile(r"\([a-z-]+\)")
 # In front of a small letter espeak takes a full stop for an abbreviation and makes no pause; people write so, too.
 FULL_STOP = "。"
-SENTENCE_END = re.compile(r"(?<=[^\W\d_]{3})(?<!\betc)(?<!\best)(?<!\binc)(?<!\bltd)(?<!\bdept)(?<!approx)\.(?=[\"'”’)]? [a-zß-ÿ])")
-EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。…–—-]+$")
+SENTENCE_END = re.compile(
+    r"(?<=[^\W\d_]{3})(?<!\betc)(?<!\best)(?<!\binc)(?<!\bltd)(?<!\bdept)(?<!approx)"
+    r"(?<!\bруб)(?<!\bкоп)(?<!\bтыс)(?<!\bмлн)(?<!\bмлрд)(?<!\bстр)(?<!\bтел)\.(?=[\"'”’»)]? [a-zß-ÿа-яё])"
+)
+EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。।॥،؛؟۔…–—-]+$")
 
 
 def espeak_voice(records: Records, language: str) -> EspeakVoice:

@@ -30,7 +30,10 @@ SCRIPTS: dict[str, tuple[str, ...]] = {
 # Letters that belong to no script or that every voice reads by their name.
 NEUTRAL = ("MICRO", "OHM", "KELVIN", "ANGSTROM", "MASCULINE", "FEMININE", "MODIFIER", "IDEOGRAPHIC")
 TERMINAL = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
-FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>")
+FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>", "<initial>", "<medial>", "<final>", "<isolated>")
+KASHIDA = "\u0640"
+# NFC sorts an Arabic short vowel in front of the shadda; espeak knows them only as they are typed, shadda first, and drops the vowel.
+SHADDA_LAST = re.compile("([\u064b-\u0650])\u0651")
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
 
 
@@ -42,7 +45,7 @@ class Text(NamedTuple):
 
 
 def clean(text: str) -> Text:
-    """*text* without emoji, control characters and broken Unicode, its full-width and styled letters made plain.
+    """*text* without emoji, control characters and broken Unicode, its full-width, styled and joined letters made plain.
 
     Raises `InputError` when nothing in it is a letter or a digit.
     """
@@ -50,6 +53,7 @@ def clean(text: str) -> Text:
     emoji = sum(_is_emoji(c) for c in folded)
     broken = sum(unicodedata.category(c) in ("Cc", "Cs", "Co", "Cn") and not c.isspace() for c in folded)
     kept = "".join(_spoken(c) for c in folded)
+    kept = SHADDA_LAST.sub("\u0651\\1", kept)
     kept = re.sub(r"(?<!\.)\.\.(?!\.)", ".", kept)  # espeak reads the second of two full stops as "dot"
     pieces = re.sub(rf"[^\W\d_]{{{LONGEST_WORD + 1},}}", lambda m: " ".join(re.findall(f".{{1,{PIECE}}}", m[0])), kept)
     if not any(c.isalnum() or _is_named(c) for c in pieces):
@@ -110,7 +114,7 @@ def _is_emoji(character: str) -> bool:
 def _spoken(character: str) -> str:
     """The character; a space for one that only separates; nothing for one that only joins or styles."""
     category = unicodedata.category(character)
-    if category == "Cf" or "\ufe00" <= character <= "\ufe0f" or "\U0001f3fb" <= character <= "\U0001f3ff":
+    if category == "Cf" or character == KASHIDA or "\ufe00" <= character <= "\ufe0f" or "\U0001f3fb" <= character <= "\U0001f3ff":
         return ""
     return " " if category in ("Cc", "Cs", "Co", "Cn", "Zl", "Zp") or _is_emoji(character) else character
 
