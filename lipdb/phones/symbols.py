@@ -13,7 +13,7 @@ from lipdb.phones.segments import without_diacritics
 from lipdb.phones.syllables import Syllables
 from lipdb.schedule import SILENCE
 
-_JOINTS = re.compile(r"[-\s‿|.]+")
+JOINTS = re.compile(r"[-\s‿|.]+")
 # X-SAMPA: nasal, syllabic, and the two-sign diacritics such as _h and _d.
 _SAMPA_DIACRITICS = re.compile(r"(?:~|=|_.)+$")
 Parts = tuple[str, ...]
@@ -102,7 +102,7 @@ class Symbols:
 
     def _joined(self, text: str, notation: str, common: bool) -> Parts:
         """The phones of labels joined by a hyphen and the like, if every one of them is known."""
-        words = [word for word in _JOINTS.split(text) if word]
+        words = [word for word in JOINTS.split(text) if word]
         if len(words) < 2:
             return ()
         found = [self.parts(word, notation, common=common) for word in words]
