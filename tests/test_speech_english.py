@@ -145,12 +145,12 @@ def test_word_positions_that_jump_back_within_a_number_do_not_split_it():
 )
 def test_phonemizer_and_the_synthesis_agree_on_the_phones(text: str):
     spoken = tuple(phone.symbol for phone in VOICE.speak(text).schedule.phones if not phone.silent)
-    assert tuple(symbol for word in VOICE.phones(text) for symbol in word) == spoken
+    assert tuple(symbol for phrase in VOICE.phrases(text) for word in phrase for symbol in word) == spoken
 
 
 def test_phones_of_a_text_do_not_depend_on_the_text_before():
-    VOICE.phones("Shut and locked..")
-    assert VOICE.phones("Simmons") == (("s", "ɪ", "m", "ə", "n", "z"),)
+    VOICE.phrases("Shut and locked..")
+    assert VOICE.phrases("Simmons") == ((("s", "ɪ", "m", "ə", "n", "z"),),)
 
 
 @pytest.mark.parametrize("text", ["<b>bold</b>", "<speak><break time='9s'/>hi</speak>", "&lt;hi&gt;", "[[h@l'oU]]"])
@@ -158,7 +158,8 @@ def test_markup_is_plain_text(text: str):
     spoken = VOICE.speak(text)
     assert spoken.sound.duration < 6
     assert not any(set(phone.symbol) & set("<>[]&;'@") for phone in spoken.schedule.phones)
-    assert tuple(s for word in VOICE.phones(text) for s in word) == tuple(p.symbol for p in spoken.schedule.phones if not p.silent)
+    said = tuple(symbol for phrase in VOICE.phrases(text) for word in phrase for symbol in word)
+    assert said == tuple(p.symbol for p in spoken.schedule.phones if not p.silent)
 
 
 def test_a_long_text_keeps_its_words_in_order_and_its_times():
@@ -173,7 +174,7 @@ def test_text_in_another_script_is_refused():
     with pytest.raises(InputError, match="Chinese characters"):
         VOICE.speak("你好")
     with pytest.raises(InputError, match="Cyrillic"):
-        VOICE.phones("Привет")
+        VOICE.phrases("Привет")
 
 
 def test_the_voice_comes_from_the_curated_data():

@@ -41,10 +41,10 @@ def test_threads_do_not_disturb_each_other():
 
 
 def test_phonemizer_and_the_synthesis_live_in_one_process():
-    from lipdb.speech.espeak import phonemize
+    from lipdb.speech import phonemes
 
     before = libespeak.speak(TEXT, "en-us")
-    assert phonemize("Bob", "en-us") == [["b", "ˈɑː", "b"]]
+    assert phonemes.words("Bob", "en-us") == [["b", "ˈɑː", "b"]]
     assert libespeak.speak(TEXT, "en-us").marks == before.marks
 
 

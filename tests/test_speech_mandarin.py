@@ -129,12 +129,12 @@ def test_latin_words_among_characters_are_read_as_english_with_a_note():
     word = spoken.schedule.words.index("iPhone")
     assert [p.symbol for p in spoken.schedule.phones if p.word == word] == ["[aɪ]", "[f]", "[əʊ]", "[n]"]
     assert spoken.notes == ("text: iPhone read as English",)
-    assert VOICE.phones("我用iPhone")[2] == ("[aɪ]", "[f]", "[əʊ]", "[n]")
+    assert VOICE.phrases("我用iPhone")[0][2] == ("[aɪ]", "[f]", "[əʊ]", "[n]")
 
 
 def test_a_single_letter_among_characters_is_said_by_its_name():
     assert _symbols("我A4")[2] == "[eɪ]"
-    assert VOICE.phones("我A4")[1] == ("[eɪ]",)
+    assert VOICE.phrases("我A4")[0][1] == ("[eɪ]",)
 
 
 def test_signs_that_nobody_reads_are_noted():
@@ -172,7 +172,7 @@ def test_a_text_without_punctuation_breathes_and_no_syllable_is_lost():
 def test_phones_without_sound_are_those_that_are_spoken():
     for text in ("你好，中国。", "huar1 xiong1", "我用iPhone手机", "一点儿"):
         spoken = VOICE.speak(text).schedule
-        assert [s for word in VOICE.phones(text) for s in word] == [p.symbol for p in spoken.phones if not p.silent]
+        assert [s for phrase in VOICE.phrases(text) for word in phrase for s in word] == [p.symbol for p in spoken.phones if not p.silent]
 
 
 def test_every_syllable_of_the_table_is_said_whole_in_every_tone():

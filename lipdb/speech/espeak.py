@@ -7,14 +7,12 @@ both give the same segments (stress can differ before a comma, where only the sy
 from __future__ import annotations
 
 import hashlib
-import os
 import re
-import threading
 from bisect import bisect_right
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from importlib.metadata import version as package_version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +20,12 @@ from numpy.typing import NDArray
 from lipdb.errors import PhonesetError
 from lipdb.schedule import SILENCE, Phone
 from lipdb.sound import Sound
-from lipdb.speech import libespeak
+from lipdb.speech import libespeak, phonemes
 from lipdb.speech.closures import restore_closures, share_swallowed
-from lipdb.speech.libespeak import Mark, find_espeak
+from lipdb.speech.libespeak import Mark
+from lipdb.speech.phonemes import SHORTEST_PAUSE, SWITCH
 from lipdb.speech.text import check_script, clean
-from lipdb.speech.voice import Spoken, lay_out
+from lipdb.speech.voice import Phrase, Phrases, Reading, Spoken, lay_out
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
@@ -34,12 +33,9 @@ if TYPE_CHECKING:
 NOTATION = "espeak"
 # Part of a voice's version: change it with anything that changes times, so that nobody is given what was kept before.
 SETTINGS = "175 words a minute, lead-in 0.25 s, closures 1"
-SHORTEST_PAUSE = 0.06
 STRESS = {"ˈ": 1, "ˌ": 2}
 # Plosives and affricates, by the first sign of their label.
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
-_PHONEMIZING = threading.Lock()
-SWITCH = re.compile(r"\([a-z-]+\)")
 # In front of a small letter espeak takes a full stop for an abbreviation and makes no pause; people write so, too.
 FULL_STOP = "。"
 SENTENCE_END = re.compile(
@@ -80,6 +76,10 @@ class EspeakVoice:
         digest = hashlib.sha256(repr(sorted(self.symbols)).encode()).hexdigest()[:12]
         return f"espeak-ng {libespeak.espeak_version()}; lipdb {package_version('lipdb')}; {SETTINGS}; labels {digest}"
 
+    def raw(self) -> EspeakVoice:
+        """The voice with labels as espeak writes them, length and all; only those that depend on their place stay."""
+        return replace(self, symbols=frozenset(symbol for symbol in self.symbols if "/" in symbol))
+
     def speak(self, text: str) -> Spoken:
         """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""
         text, notes = self._checked(text)
@@ -90,11 +90,20 @@ class EspeakVoice:
         schedule = lay_out(mended_edges(marks, utterance.sound), phones, language=self.language, notation=NOTATION, words=words)
         return Spoken(schedule, utterance.sound, notes)
 
-    def phones(self, text: str) -> tuple[tuple[str, ...], ...]:
-        """The labels of every spoken word, through phonemizer; words that are said as one are one."""
+    def phrases(self, text: str) -> Phrases:
+        """The labels of every spoken word of every phrase, through phonemizer; words that are said as one are one."""
+        return self.read(text).phrases
+
+    def read(self, text: str) -> Reading:
+        """As `phrases`, with the number of words that are read by the rules of another language."""
         text, _ = self._checked(text)
-        words = phonemize(text, self.name)
-        return tuple(tuple(self._phone(label, 0).symbol for label in word) for word in words)
+        phrases, switches = list[Phrase](), 0
+        for phrase in phonemes.phrases(text, self.name):
+            bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
+            switches += found
+            if words := [symbols for word in bare.split() if (symbols := _symbols(word, self.symbols))]:
+                phrases.append(tuple(words))
+        return Reading(tuple(phrases), (switches + 1) // 2)
 
     def _checked(self, text: str) -> tuple[str, tuple[str, ...]]:
         cleaned, notes = clean(text)
@@ -103,45 +112,30 @@ class EspeakVoice:
 
     def _phone(self, label: str, word: int) -> Phone:
         stress = next((level for mark, level in STRESS.items() if mark in label), 0)
-        symbol = label.translate({ord(mark): None for mark in STRESS})
-        forms = (symbol, symbol.replace("ː", ""), undoubled(symbol))
-        known = next((form for form in forms if form in self.symbols), symbol)
-        return Phone(known, word=word, stress=stress, long="ː" in label or undoubled(symbol) != symbol)
+        symbol = unstressed(label)
+        return Phone(_known(symbol, self.symbols), word=word, stress=stress, long="ː" in label or undoubled(symbol) != symbol)
+
+
+def unstressed(label: str) -> str:
+    """*label* without its marks of stress."""
+    return label.replace("ˈ", "").replace("ˌ", "")
+
+
+def _known(symbol: str, symbols: frozenset[str]) -> str:
+    """*symbol* as the alias table writes it: as it is, without length, or not doubled."""
+    return next((form for form in (symbol, symbol.replace("ː", ""), undoubled(symbol)) if form in symbols), symbol)
+
+
+@lru_cache(maxsize=1 << 16)
+def _symbols(word: str, symbols: frozenset[str]) -> tuple[str, ...]:
+    """The symbols of one *word* of phonemizer's. Words come back again and again, so each is taken apart once."""
+    return tuple(_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if symbol)
 
 
 def undoubled(symbol: str) -> str:
     """``ə`` for ``əə``: espeak writes some lengthened vowels twice."""
     half = len(symbol) // 2
     return symbol[:half] if symbol[:half] == symbol[half:] else symbol
-
-
-def phonemize(text: str, voice: str) -> list[list[str]]:
-    """The IPA labels, with stress, of every word of *text*, by phonemizer.
-
-    Its wrapper is used bare: the backend on top of it takes the punctuation out, which changes how numbers and the ends
-    of clauses are read.
-    """
-    with _PHONEMIZING:
-        spoken = SWITCH.sub("", _phonemizer(voice).text_to_phonemes(text))
-    words = [[label for label in word.split("_") if label.strip("ˈˌ")] for word in spoken.split()]
-    return [word for word in words if word]
-
-
-@cache
-def _phonemizer(voice: str) -> Any:
-    """One wrapper a voice: each keeps a library of its own, and never gives its memory back. Raises `PhonesetError`."""
-    library, data = find_espeak()
-    os.environ.setdefault("PHONEMIZER_ESPEAK_LIBRARY", str(library))
-    if data:
-        os.environ.setdefault("PHONEMIZER_ESPEAK_DATA_PATH", str(data))
-    from phonemizer.backend.espeak.wrapper import EspeakWrapper
-
-    wrapper = EspeakWrapper()
-    try:
-        wrapper.set_voice(voice)
-    except RuntimeError as error:
-        raise libespeak.no_such_voice(voice) from error
-    return wrapper
 
 
 def words_of(text: str, marks: tuple[Mark, ...]) -> tuple[tuple[str, ...], list[int]]:

@@ -22,12 +22,12 @@ from lipdb.errors import InputError
 from lipdb.phones.mapping import bracketed
 from lipdb.phones.syllables import Syllables
 from lipdb.schedule import SILENCE, Phone
-from lipdb.speech import libespeak
-from lipdb.speech.espeak import FULL_STOP, SETTINGS, language_row, mended_edges, phonemize, undoubled, without_short_pauses
+from lipdb.speech import libespeak, phonemes
+from lipdb.speech.espeak import FULL_STOP, SETTINGS, language_row, mended_edges, undoubled, without_short_pauses
 from lipdb.speech.libespeak import Mark
 from lipdb.speech.pinyin import NEUTRAL, Foreign, Pause, PinyinReader, Syllable, Token, has_characters
 from lipdb.speech.text import check_script, clean
-from lipdb.speech.voice import Spoken, lay_out
+from lipdb.speech.voice import Phrases, Reading, Spoken, lay_out
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records
@@ -76,6 +76,10 @@ class PinyinVoice:
         programs = f"espeak-ng {libespeak.espeak_version()}; pypinyin {package_version('pypinyin')}; lipdb {package_version('lipdb')}"
         return f"{programs}; {SETTINGS}; tables {digest}"
 
+    def raw(self) -> PinyinVoice:
+        """The voice itself: initials and finals come from the syllable table, whatever they map to."""
+        return self
+
     def speak(self, text: str) -> Spoken:
         """Speak *text*: initials and finals with tones; words are the characters as written.
 
@@ -107,14 +111,18 @@ class PinyinVoice:
                 for i in inner:
                     yield from self._foreign(marks[i].label, word, edges[i], edges[i + 1])
 
-    def phones(self, text: str) -> tuple[tuple[str, ...], ...]:
+    def phrases(self, text: str) -> Phrases:
         """Initial and final of every syllable, and the segments of foreign words."""
+        return self.read(text).phrases
+
+    def read(self, text: str) -> Reading:
+        """As `phrases`, with the number of words that are read as English."""
         tokens, _ = self._tokens(text)
-        return tuple(
-            token.phones if isinstance(token, Syllable) else self._foreign_segments(token.written)
-            for token in tokens
-            if not isinstance(token, Pause)
-        )
+        foreign = sum(isinstance(token, Foreign) for token in tokens)
+        return Reading(tuple(tuple(map(self._symbols, breath)) for breath in breaths(tokens)), foreign)
+
+    def _symbols(self, token: Syllable | Foreign) -> tuple[str, ...]:
+        return token.phones if isinstance(token, Syllable) else self._foreign_segments(token.written)
 
     def _tokens(self, text: str) -> tuple[list[Token], tuple[str, ...]]:
         cleaned, notes = clean(text)
@@ -133,13 +141,27 @@ class PinyinVoice:
         return tokens, notes
 
     def _foreign_segments(self, word: str) -> tuple[str, ...]:
-        labels = [label for spoken in phonemize(word, self.name) for label in spoken]
+        labels = [label for spoken in phonemes.words(word, self.name) for label in spoken]
         return tuple(bracketed(segment) for label in labels for segment in split_ipa(label, self.segments))
 
     def _foreign(self, label: str, word: int, start: float, end: float) -> list[tuple[float, Phone]]:
         segments = split_ipa(label, self.segments)
         share = (end - start) / max(1, len(segments))
         return [(start + k * share, Phone(bracketed(segment), word=word)) for k, segment in enumerate(segments)]
+
+
+def breaths(tokens: Iterable[Token]) -> Iterator[list[Syllable | Foreign]]:
+    """What is said between one pause and the next: at every mark of punctuation, and after `LONGEST_BREATH`."""
+    breath: list[Syllable | Foreign] = []
+    for token in tokens:
+        if isinstance(token, Pause) or len(breath) == LONGEST_BREATH:
+            if breath:
+                yield breath
+            breath = []
+        if not isinstance(token, Pause):
+            breath.append(token)
+    if breath:
+        yield breath
 
 
 def respell(tokens: Iterable[Token], legal: Container[str]) -> tuple[str, list[int]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,23 @@ class Spoken:
     notes: tuple[str, ...] = ()
 
 
+Phrase = tuple[tuple[str, ...], ...]
+"""The symbols of every word that is said in one breath."""
+Phrases = tuple[Phrase, ...]
+"""What is said between one pause and the next."""
+
+
+class Reading(NamedTuple):
+    """A text as a voice would say it: its phrases, and how many of its words are *foreign*, read as another language's."""
+
+    phrases: Phrases
+    foreign: int = 0
+
+
 class Voice(Protocol):
     """Makes timed phones and sound from text; the same text gives the same bytes.
 
-    Both methods raise `InputError` for text that the voice can't read.
+    `speak` and `phrases` raise `InputError` for text that the voice can't read.
     """
 
     @property
@@ -45,11 +58,17 @@ class Voice(Protocol):
     def version(self) -> str:
         """Everything but the text that decides the result: programs with their versions, settings."""
 
+    def raw(self) -> Voice:
+        """The same voice with symbols that depend as little as can be on tables that people edit: for counts that are kept."""
+
     def speak(self, text: str) -> Spoken:
         """Speak *text*."""
 
-    def phones(self, text: str) -> tuple[tuple[str, ...], ...]:
-        """The symbols of every word of *text*, without sound and times."""
+    def phrases(self, text: str) -> Phrases:
+        """The symbols of every word of every phrase of *text*, without sound and times.
+
+        A phrase ends where `speak` pauses, so its first and last symbols are those that stand next to silence.
+        """
 
 
 def lay_out(edges: NDArray[np.float64], phones: Sequence[Phone], *, language: str, notation: str, words: tuple[str, ...]) -> Schedule:
