@@ -9,9 +9,11 @@ from __future__ import annotations
 import hashlib
 import re
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib.metadata import version as package_version
+from itertools import groupby, repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +24,7 @@ from lipdb.schedule import SILENCE, Phone
 from lipdb.sound import Sound
 from lipdb.speech import libespeak, phonemes
 from lipdb.speech.closures import restore_closures, share_swallowed
+from lipdb.speech.context import in_context
 from lipdb.speech.libespeak import Mark
 from lipdb.speech.phonemes import SHORTEST_PAUSE, SWITCH
 from lipdb.speech.text import check_script, clean
@@ -86,7 +89,7 @@ class EspeakVoice:
         utterance = libespeak.speak(text, self.name)
         marks = without_short_pauses(utterance.marks, utterance.sound.rate)
         words, word_of = words_of(text, marks)
-        phones = [Phone(SILENCE) if not m.label else self._phone(m.label, w) for m, w in zip(marks, word_of, strict=True)]
+        phones = self._phones([mark.label for mark in marks], word_of)
         schedule = lay_out(mended_edges(marks, utterance.sound), phones, language=self.language, notation=NOTATION, words=words)
         return Spoken(schedule, utterance.sound, notes)
 
@@ -110,10 +113,20 @@ class EspeakVoice:
         check_script(cleaned, self.script, language=self.language)
         return SENTENCE_END.sub(FULL_STOP, cleaned), notes
 
-    def _phone(self, label: str, word: int) -> Phone:
-        stress = next((level for mark, level in STRESS.items() if mark in label), 0)
-        symbol = unstressed(label)
-        return Phone(_known(symbol, self.symbols), word=word, stress=stress, long="ː" in label or undoubled(symbol) != symbol)
+    def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
+        """The phones of *labels* (empty: a pause), of which each belongs to a word."""
+        phones = list[Phone]()
+        for word, places in groupby(range(len(labels)), word_of.__getitem__):
+            said = [labels[place] for place in places]
+            symbols = _placed([_known(unstressed(label), self.symbols) for label in said], self.symbols)
+            phones += [_phone(label, symbol, word) if label else Phone(SILENCE) for label, symbol in zip(said, symbols, strict=True)]
+        return phones
+
+
+def _phone(label: str, symbol: str, word: int) -> Phone:
+    stress = next((level for mark, level in STRESS.items() if mark in label), 0)
+    bare = unstressed(label)
+    return Phone(symbol, word=word, stress=stress, long="ː" in label or undoubled(bare) != bare)
 
 
 def unstressed(label: str) -> str:
@@ -129,7 +142,12 @@ def _known(symbol: str, symbols: frozenset[str]) -> str:
 @lru_cache(maxsize=1 << 16)
 def _symbols(word: str, symbols: frozenset[str]) -> tuple[str, ...]:
     """The symbols of one *word* of phonemizer's. Words come back again and again, so each is taken apart once."""
-    return tuple(_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if symbol)
+    return _placed([_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if symbol], symbols)
+
+
+def _placed(word: list[str], symbols: frozenset[str]) -> tuple[str, ...]:
+    """The labels of a *word*, those that have a form for their place (`lipdb.speech.context`) in that form."""
+    return tuple(map(in_context, word, ["", *word], [*word[1:], ""], repeat(symbols)))
 
 
 def undoubled(symbol: str) -> str:
