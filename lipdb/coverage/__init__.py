@@ -1,0 +1,1 @@
+"""Coverage: which pairs of phones real text needs."""
