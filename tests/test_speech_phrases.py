@@ -69,5 +69,5 @@ def test_words_of_another_language_are_read_without_the_mark_and_counted():
 
 
 def test_raw_labels_do_not_depend_on_the_alias_table():
-    assert ENGLISH.raw() == EspeakVoice("en-us", "en", "Latn", frozenset(s for s in ENGLISH.symbols if "/" in s))
-    assert ENGLISH.raw().version != ENGLISH.version
+    voice = EspeakVoice("de", "de", "Latn", frozenset({"aː", "ɜ", "ɾ/V_", "ɾ", "ɾː"}))
+    assert voice.raw().symbols == {"ɾ/V_", "ɾ", "ɾː"}

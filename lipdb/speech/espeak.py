@@ -81,7 +81,8 @@ class EspeakVoice:
 
     def raw(self) -> EspeakVoice:
         """The voice with labels as espeak writes them, length and all; only those that depend on their place stay."""
-        return replace(self, symbols=frozenset(symbol for symbol in self.symbols if "/" in symbol))
+        placed = {symbol.split("/")[0] for symbol in self.symbols if "/" in symbol}
+        return replace(self, symbols=frozenset(s for s in self.symbols if "/" in s or s.replace("ː", "") in placed))
 
     def speak(self, text: str) -> Spoken:
         """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""
@@ -111,7 +112,9 @@ class EspeakVoice:
     def _checked(self, text: str) -> tuple[str, tuple[str, ...]]:
         cleaned, notes = clean(text)
         check_script(cleaned, self.script, language=self.language)
-        return SENTENCE_END.sub(FULL_STOP, cleaned), notes
+        # Most lines have a full stop only at their end: looking for it is quicker than the expression.
+        ended = SENTENCE_END.sub(FULL_STOP, cleaned) if "." in cleaned[:-1] else cleaned
+        return ended, notes
 
     def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
         """The phones of *labels* (empty: a pause), of which each belongs to a word."""

@@ -15,16 +15,30 @@ PIECE = 20
 SCRIPTS: dict[str, tuple[str, ...]] = {
     "Arab": ("ARABIC",),
     "Armn": ("ARMENIAN",),
+    "Beng": ("BENGALI",),
+    "Cher": ("CHEROKEE",),
     "Cyrl": ("CYRILLIC",),
     "Deva": ("DEVANAGARI",),
+    "Ethi": ("ETHIOPIC",),
     "Geor": ("GEORGIAN",),
     "Grek": ("GREEK",),
+    "Gujr": ("GUJARATI",),
+    "Guru": ("GURMUKHI",),
     "Hans": ("CJK", "LATIN"),
     "Hant": ("CJK", "LATIN"),
     "Hebr": ("HEBREW",),
     "Jpan": ("CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "LATIN"),
+    "Khmr": ("KHMER",),
+    "Knda": ("KANNADA",),
     "Kore": ("HANGUL", "CJK"),
+    "Laoo": ("LAO",),
     "Latn": ("LATIN",),
+    "Mlym": ("MALAYALAM",),
+    "Mymr": ("MYANMAR",),
+    "Orya": ("ORIYA",),
+    "Sinh": ("SINHALA",),
+    "Taml": ("TAMIL",),
+    "Telu": ("TELUGU",),
     "Thai": ("THAI",),
 }
 # Letters that belong to no script or that every voice reads by their name.
@@ -34,6 +48,10 @@ FOLDED = ("<wide>", "<narrow>", "<font>", "<circle>", "<initial>", "<medial>", "
 KASHIDA = "\u0640"
 # NFC sorts an Arabic short vowel in front of the shadda; espeak knows them only as they are typed, shadda first, and drops the vowel.
 SHADDA_LAST = re.compile("([\u064b-\u0650])\u0651")
+_SHADDA = "\u0651"
+_LONG = re.compile(rf"[^\W\d_]{{{LONGEST_WORD + 1},}}")
+_PLAIN: set[str] = set()
+_ALLOWED: dict[str, set[str]] = {}
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
 
 
@@ -44,28 +62,64 @@ class Text(NamedTuple):
     notes: tuple[str, ...]
 
 
+class Cleaned(NamedTuple):
+    """A *text* as a voice gets it, and what is no longer in it: *emoji*, *broken* characters, *long* words as they were."""
+
+    text: str
+    emoji: int = 0
+    broken: int = 0
+    long: bool = False
+
+
 def clean(text: str) -> Text:
     """*text* without emoji, control characters and broken Unicode, its full-width, styled and joined letters made plain.
 
     Raises `InputError` when nothing in it is a letter or a digit.
     """
+    cleaned = cleaned_up(text)
+    notes = []
+    if cleaned.emoji:
+        notes.append(f"text: {cleaned.emoji} emoji or pictograms are not read")
+    if cleaned.broken:
+        notes.append(f"text: {cleaned.broken} characters that are no text (control codes or broken Unicode) are left out")
+    if cleaned.long:
+        notes.append(f"text: words of more than {LONGEST_WORD} letters are read in pieces")
+    return Text(cleaned.text, tuple(notes))
+
+
+def cleaned_up(text: str) -> Cleaned:
+    """As `clean`, with numbers in place of notes."""
+    plain = is_plain(text)
+    emoji, broken, kept = (0, 0, text) if plain else _spoken_signs(text)
+    if ".." in kept:
+        kept = re.sub(r"(?<!\.)\.\.(?!\.)", ".", kept)  # espeak reads the second of two full stops as "dot"
+    words = kept.split()
+    long = len(kept) > LONGEST_WORD and max(map(len, words), default=0) > LONGEST_WORD
+    pieces = _LONG.sub(lambda m: " ".join(re.findall(f".{{1,{PIECE}}}", m[0])), kept) if long else kept
+    if not any(c.isalnum() or _is_named(c) for c in pieces):
+        raise InputError(f"text: nothing in {_shown(text)} can be spoken; write at least one word")
+    return Cleaned(" ".join(pieces.split() if pieces != kept else words), emoji, broken, pieces != kept)
+
+
+def is_plain(text: str) -> bool:
+    """Whether a voice gets *text* just as it is: nothing is left out, nothing made plain.
+
+    Each character is looked at once in the life of a process, so a text costs no more than the set of its characters.
+    """
+    new = set(text) - _PLAIN
+    if new:
+        _PLAIN.update(c for c in new if c.isspace() or (c not in _SHADDA and _fold(c) == _spoken(c) == c))
+        if not new <= _PLAIN:
+            return False
+    return unicodedata.is_normalized("NFC", text)
+
+
+def _spoken_signs(text: str) -> tuple[int, int, str]:
+    """How many emoji and broken characters *text* has, and what is spoken of it."""
     folded = "".join(_fold(c) for c in unicodedata.normalize("NFC", TERMINAL.sub("", text)))
     emoji = sum(_is_emoji(c) for c in folded)
     broken = sum(unicodedata.category(c) in ("Cc", "Cs", "Co", "Cn") and not c.isspace() for c in folded)
-    kept = "".join(_spoken(c) for c in folded)
-    kept = SHADDA_LAST.sub("\u0651\\1", kept)
-    kept = re.sub(r"(?<!\.)\.\.(?!\.)", ".", kept)  # espeak reads the second of two full stops as "dot"
-    pieces = re.sub(rf"[^\W\d_]{{{LONGEST_WORD + 1},}}", lambda m: " ".join(re.findall(f".{{1,{PIECE}}}", m[0])), kept)
-    if not any(c.isalnum() or _is_named(c) for c in pieces):
-        raise InputError(f"text: nothing in {_shown(text)} can be spoken; write at least one word")
-    notes = []
-    if emoji:
-        notes.append(f"text: {emoji} emoji or pictograms are not read")
-    if broken:
-        notes.append(f"text: {broken} characters that are no text (control codes or broken Unicode) are left out")
-    if pieces != kept:
-        notes.append(f"text: words of more than {LONGEST_WORD} letters are read in pieces")
-    return Text(" ".join(pieces.split()), tuple(notes))
+    return emoji, broken, SHADDA_LAST.sub("\u0651\\1", "".join(_spoken(c) for c in folded))
 
 
 def check_script(text: str, script: str, *, language: str) -> None:
@@ -74,7 +128,7 @@ def check_script(text: str, script: str, *, language: str) -> None:
     Single Greek letters pass: they are symbols. Raises `InputError` with the first letters that do not belong.
     """
     allowed = SCRIPTS.get(script)
-    if allowed is None:
+    if allowed is None or _is_within(text, script):
         return
     for found in re.finditer(r"[^\W\d_]+", text):
         kinds = [_kind(c) for c in found[0]]
@@ -88,6 +142,14 @@ def check_script(text: str, script: str, *, language: str) -> None:
             f"text: {_shown(found[0])} at character {found.start() + foreign[0] + 1} is written in {writing}, which language {language!r} "
             "can't read; give the --language of the text, or write it out"
         )
+
+
+def _is_within(text: str, script: str) -> bool:
+    """Whether every character of *text* belongs to *script* wherever it stands; each is looked at once, as in `is_plain`."""
+    within = _ALLOWED.setdefault(script, set())
+    new = set(text) - within
+    within.update(c for c in new if _kind(c) in (*SCRIPTS[script], *NEUTRAL, ""))
+    return new <= within
 
 
 def _kind(character: str) -> str:
