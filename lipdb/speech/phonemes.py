@@ -92,13 +92,7 @@ def _pauses_after(word: str, voice: str) -> bool:
 @cache
 def _translator(voice: str) -> Any:
     """The library's function for *voice*. One library a voice: each never gives its memory back."""
-    library, data = find_espeak()
-    os.environ.setdefault("PHONEMIZER_ESPEAK_LIBRARY", str(library))
-    if data:
-        os.environ.setdefault("PHONEMIZER_ESPEAK_DATA_PATH", str(data))
-    from phonemizer.backend.espeak.wrapper import EspeakWrapper
-
-    wrapper = EspeakWrapper()
+    wrapper = load()
     try:
         wrapper.set_voice(voice)
     except RuntimeError as error:
@@ -110,3 +104,14 @@ def _translator(voice: str) -> Any:
     # The library lives as long as its wrapper.
     translate.wrapper = wrapper
     return translate
+
+
+def load() -> Any:
+    """The wrapper of phonemizer around a library of its own, without a voice. Raises `MissingToolError`."""
+    library, data = find_espeak()
+    os.environ.setdefault("PHONEMIZER_ESPEAK_LIBRARY", str(library))
+    if data:
+        os.environ.setdefault("PHONEMIZER_ESPEAK_DATA_PATH", str(data))
+    from phonemizer.backend.espeak.wrapper import EspeakWrapper
+
+    return EspeakWrapper()
