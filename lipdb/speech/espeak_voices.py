@@ -57,7 +57,5 @@ def letters_of(script: str) -> tuple[str, ...]:
     """Small letters, letters without case, or syllables of *script* (ISO 15924), the basic ones first; at most `LETTERS`."""
     kind = _KINDS.get(script, SCRIPTS[script][0])
     kinds = tuple(f"{kind} {what}" for what in ("SMALL LETTER", "LETTER", "SYLLABLE", "CHARACTER", "UNIFIED"))
-        f"{_KINDS.get(script, SCRIPTS[script][0])} {what}" for what in ("SMALL LETTER", "LETTER", "SYLLABLE", "CHARACTER", "UNIFIED")
-    )
     letters = (chr(number) for number in range(0x20000) if unicodedata.category(chr(number)) in ("Ll", "Lo"))
     return tuple(islice((letter for letter in letters if unicodedata.name(letter, "").startswith(kinds)), LETTERS))
