@@ -2,28 +2,42 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 
 from lipdb.cli.options import Options, json_option, print_json, print_listing
+from lipdb.errors import InputError, UnknownSymbolError
 
 LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
 
 
 @click.command(short_help="Show the phones of a text and the common phones they map to.")
-@click.argument("text")
+@click.argument("text", required=False)
 @LANGUAGE
 @click.option("-c", "--character", help="Show the phones as this character says them.")
+@click.option("--ipa", is_flag=True, help="Read IPA segments from standard input, one a line, and propose common phones for each.")
 @json_option
 @click.pass_obj
-def phones(options: Options, text: str, language: str, character: str | None, as_json: bool) -> None:
+def phones(options: Options, /, text: str | None, language: str, character: str | None, ipa: bool, as_json: bool) -> None:
     """Show the phones of TEXT, the common phones they map to, and the layer that each mapping comes from.
 
+    With --ipa: what each IPA segment on standard input maps to, in any language, how sure that is, and why. Lines that are no
+    IPA are listed too, and end with exit code 5.
+
     \b
-    Example:
+    Examples:
       lipdb phones "你好" --language cmn
+      printf 'ʁ\nt͡ɕʰ\nkʷ\n' | lipdb phones --ipa --json
     """
+    if ipa:
+        if text is not None:
+            raise click.UsageError("--ipa reads standard input, so it takes no TEXT")
+        _propose(options, as_json)
+        return
+    if text is None:
+        raise click.UsageError("give a TEXT, or --ipa for IPA segments on standard input")
     with options.open() as db:
         if character is not None:
             db.character(character)
@@ -43,6 +57,24 @@ def phones(options: Options, text: str, language: str, character: str | None, as
         print_listing(rows, as_json=as_json)
         for note in line.notes:
             click.echo(f"lipdb: {note}", err=True)
+
+
+def _propose(options: Options, as_json: bool) -> None:
+    """Print what the IPA segments on standard input map to."""
+    from lipdb.phones.phoneset import shortened
+    from lipdb.phones.proposal import propose
+
+    if sys.stdin is None:
+        raise InputError("standard input is closed; pipe IPA segments in, one a line")
+    lines = sys.stdin.buffer.read().decode("utf-8-sig", errors="replace").splitlines()
+    with options.open() as db:
+        rows = db.records.get("ipa.tsv", {})
+        found = [propose(line.strip(), rows) for line in lines if line.strip()]
+    print_listing([proposal.to_row() for proposal in found], as_json=as_json)
+    strange = [proposal.ipa for proposal in found if not proposal.common]
+    if strange:
+        shown = ", ".join(repr(shortened(line)) for line in strange[:5]) + (", …" if len(strange) > 5 else "")
+        raise UnknownSymbolError(f"{len(strange)} of {len(found)} lines are no IPA segments: {shown}; see the reason beside each")
 
 
 @click.command(short_help="Show the phone pairs of a text and where their curves come from.")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from lipdb.curated.tsv import Row
-from lipdb.phones.articulation import NEUTRAL, nearest
+from lipdb.phones.articulation import NEUTRAL
+from lipdb.phones.likeness import nearest
 from lipdb.schedule import SILENCE
 
 NEUTRAL_CONSONANT = "d"

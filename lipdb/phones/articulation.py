@@ -1,135 +1,193 @@
-"""IPA segments to common phones, and to one another, by what lips, jaw and tongue visibly do.
+"""IPA segments to common phones, by what lips, jaw and tongue visibly do.
 
-Rules by articulation (design: they place 99.5 % of 216 phonemes of six languages as a phonetician does). They propose the
-rows of ``ipa.tsv`` and answer for symbols that no table knows; a person's row wins over them.
+Rules by articulation. They propose the rows of ``ipa.tsv`` and answer for symbols that no table knows; a person's row
+wins over them. ``benchmarks/mapping.py`` scores them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
-from lipdb.phones.segments import PLACES, Letter, read_segment
+from lipdb.phones.letters import BACK, HUSH, LIPS, TIP, Letter
+from lipdb.phones.segments import read_segment
 
 NEUTRAL = "ah"
 
 
 @dataclass(frozen=True, slots=True)
+class Verdict:
+    """One *common* phone, how sure the rule is (0 to 1), a phrase that says why, and the letters (*text*) that it stands for.
+
+    The rounding of kʷ stands for no letter.
+    """
+
+    common: str
+    confidence: float
+    reason: str
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Classified:
-    """The common phones of a segment, how sure the rule is (0 to 1), and a sentence that says why."""
+    """The common phones of a segment, how sure the rules are (0 to 1), a sentence that says why, and each verdict."""
 
     common: tuple[str, ...]
     confidence: float
     reason: str
+    verdicts: tuple[Verdict, ...] = ()
 
 
-Verdict = tuple[str, float, str]
-"""A common phone, confidence, reason."""
-
-_LIPS = ("bilabial", "labiodental")
-_TIP = ("dental", "alveolar", "postalveolar", "retroflex", "alveolopalatal")
-_HISS = ("postalveolar", "retroflex", "alveolopalatal", "palatal")
-_BACK = ("palatal", "velar", "uvular")
-
-# Manners (empty: any), places (empty: any), verdict; the first that fits wins.
-_RULES: tuple[tuple[tuple[str, ...], tuple[str, ...], Verdict], ...] = (
-    (("plosive", "implosive", "nasal", "click", "trill"), ("bilabial",), ("bmp", 1.0, "the lips close")),
-    ((), ("labiodental",), ("f", 1.0, "the lower lip meets the upper teeth")),
-    ((), ("bilabial",), ("f", 0.7, "the lips come close but do not shut; nearest is f")),
-    ((), ("labial-velar",), ("w", 1.0, "the lips round and come forward")),
-    ((), ("labial-palatal",), ("ue", 1.0, "the lips round over a front tongue")),
-    (("lateral",), (), ("l", 0.9, "the tongue lets air pass at its sides")),
-    (("approximant",), ("palatal",), ("sh", 0.8, "the paper puts the consonant of yard here")),
-    (("approximant",), _TIP, ("r", 0.9, "the tongue curls up without touching")),
-    (("trill",), ("alveolar",), ("r", 0.7, "the tongue tip trills; d would also do")),
-    (("fricative",), ("dental",), ("th", 1.0, "the tongue tip is seen at the teeth")),
-    (("fricative",), ("alveolar",), ("z", 1.0, "the teeth nearly shut for a hiss")),
-    (("fricative",), _HISS, ("sh", 0.9, "the teeth nearly shut for a hush, behind the ridge")),
-    (("fricative",), ("pharyngeal", "glottal"), ("h", 0.8, "made in the throat, the mouth is free")),
-    (("plosive",), ("pharyngeal", "glottal"), ("h", 0.6, "shut in the throat only, the mouth is free")),
-    (("nasal", "click"), (), ("d", 0.9, "the tongue shuts the mouth, as for n or ng")),
-    ((), _TIP, ("d", 1.0, "the tongue tip touches behind the teeth")),
-    ((), (), ("kg", 0.9, "the back of the tongue rises")),
+# Manners (empty: any), places (empty: any), common phone, confidence, reason; the first that fits wins.
+_Rule = tuple[tuple[str, ...], tuple[str, ...], str, float, str]
+_RULES: tuple[_Rule, ...] = (
+    (("plosive", "implosive", "nasal", "click", "trill"), ("bilabial",), "bmp", 1.0, "the lips close"),
+    ((), ("labiodental",), "f", 1.0, "the lower lip meets the upper teeth"),
+    ((), ("bilabial",), "f", 0.7, "the lips come close but do not shut; nearest is f"),
+    ((), ("linguolabial",), "th", 0.6, "the tongue is seen at the upper lip"),
+    ((), ("labial-velar",), "w", 1.0, "the lips round and come forward"),
+    ((), ("labial-palatal",), "ue", 1.0, "the lips round over a front tongue"),
+    (("lateral", "lateral click"), (), "l", 0.9, "the tongue lets air pass at its sides"),
+    (("approximant",), ("palatal",), "sh", 0.8, "the paper puts the consonant of yard here"),
+    (("approximant",), TIP, "r", 0.9, "the tongue curls up without touching"),
+    (("trill",), ("alveolar",), "r", 0.7, "the tongue tip trills; d would also do"),
+    (("fricative",), ("dental",), "th", 1.0, "the tongue tip is seen at the teeth"),
+    (("fricative",), ("alveolar",), "z", 1.0, "the teeth nearly shut for a hiss"),
+    (("fricative",), HUSH, "sh", 0.9, "the teeth nearly shut for a hush, behind the ridge"),
+    (("fricative",), ("pharyngeal", "glottal"), "h", 0.8, "made in the throat, the mouth is free"),
+    (("plosive",), ("pharyngeal", "glottal"), "h", 0.6, "shut in the throat only, the mouth is free"),
+    (("nasal", "click"), (), "d", 0.9, "the tongue shuts the mouth, as for n or ng"),
+    ((), TIP, "d", 1.0, "the tongue tip touches behind the teeth"),
+    ((), ("palatal",), "kg", 0.7, "the middle of the tongue rises to the palate; d would also do"),
+    ((), (), "kg", 0.9, "the back of the tongue rises"),
 )
 
 
 def _consonant(letter: Letter) -> Verdict:
-    if letter.syllabic and letter.manner == "approximant" and letter.place in _TIP:
-        return "er", 0.7, "an r that carries the syllable"
-    return next(v for manners, places, v in _RULES if (not manners or letter.manner in manners) and (not places or letter.place in places))
+    if letter.syllabic and letter.manner == "approximant" and letter.place in TIP:
+        return Verdict("er", 0.6, "an r that carries the syllable; where it stands for an apical vowel, ih", letter.text)
+    if letter.letter == "ɰ" and letter.rounded:
+        return Verdict("w", 0.8, "a w with compressed lips", letter.text)
+    for manners, places, common, confidence, reason in _RULES:
+        if (not manners or letter.manner in manners) and (not places or letter.place in places):
+            return Verdict(common, confidence * letter.sure, reason, letter.text)
+    raise AssertionError(f"the last rule fits every consonant, {letter} too")
 
 
 def _vowel(letter: Letter) -> Verdict:
-    close, mid = letter.height < 0.3, letter.height < 0.45
+    common, confidence, reason = _rounded(letter) if letter.rounded else _unrounded(letter)
     if letter.rhotic:
-        return "er", 0.9, "an r-coloured vowel"
-    if not letter.rounded:
-        if close:
-            return "ih", 0.95 if letter.back < 0.9 else 0.7, "close and unrounded"
-        if letter.height == 1:
-            return (
-                "aa",
-                1.0 if letter.back else 0.7,
-                "the jaw wide open" + ("" if letter.back else "; where /a/ is written the vowel is mostly central"),
-            )
-        if letter.back < 0.9 and (mid or (letter.back == 0 and letter.height < 0.75)):
-            return "eh", 0.95, "mid and unrounded, at the front"
-        return "ah", 0.9, "between mid and open, unrounded"
-    if letter.back == 0:
-        return ("ah", 0.6, "open and hardly rounded") if letter.height == 1 else ("ue", 0.9 - 0.5 * letter.height, "rounded at the front")
-    if close:
-        return "w", 0.95, "close and rounded, as in too"
-    return ("ow", 0.8, "mid and rounded, as in go") if mid else ("ao", 0.9, "open and rounded, as in dog")
+        common, confidence, reason = "er", 0.9, "an r-coloured vowel"
+    return Verdict(common, confidence * letter.sure, reason, letter.text)
 
 
-def _ending(letter: Letter) -> str:
-    """``i`` or ``u`` for what can end a diphthong, else nothing."""
-    if letter.glide:
-        return {"j": "i", "w": "u", "ɥ": ""}[letter.letter]
-    if not letter.vowel or letter.height > 0.75 or letter.rhotic:
-        return ""
-    if letter.rounded:
-        return "u" if letter.height < 0.5 and letter.back else ""
-    return "i" if letter.back == 0 or (letter.height < 0.3 and letter.back < 0.9) else ""
+def _unrounded(letter: Letter) -> tuple[str, float, str]:
+    height, back = letter.height, letter.back
+    if height < 0.25:
+        return "ih", 0.7 if back > 0.7 else 0.95, "close and unrounded"
+    if height > 0.9:
+        hint = "" if back > 0.7 else "; where /a/ is written the vowel is mostly central"
+        return "aa", 1.0 if back > 0.7 else 0.7 + 0.2 * back, "the jaw wide open" + hint
+    if (height < 0.42 and back < 0.7) or (back < 0.4 and height < 0.75):
+        return "eh", 0.95 - 0.5 * back, "mid and unrounded, at the front"
+    if letter.letter == "ɜ":
+        return "er", 0.6, "the vowel of fur where no r is said; elsewhere ah"
+    return "ah", 0.9, "between mid and open, unrounded"
 
 
+def _rounded(letter: Letter) -> tuple[str, float, str]:
+    height, back = letter.height, letter.back
+    if back < 0.4 and height < 0.9:
+        return "ue", 0.9 - 0.5 * height, "rounded at the front"
+    if height < 0.25:
+        return "w", 0.95 if back > 0.7 else 0.8, "close and rounded, as in too"
+    if height < 0.42:
+        return "ow", 0.8, "mid and rounded, as in go"
+    return "ao", 0.9 if back > 0.7 else 0.6, "open and rounded, as in dog"
+
+
+def _off_glide(letter: Letter) -> Verdict:
+    """j, w or ɥ after a vowel: the end of a diphthong that has no class of its own."""
+    common = {"j": "ih", "w": "w", "ɥ": "ue"}[letter.letter]
+    return Verdict(common, 0.8, "a glide that ends the vowel", letter.text)
+
+
+# How a diphthong begins and ends, and the class it has (Table 1: ay, aw, oy, ow, and eh for the vowel of ate).
 _DIPHTHONGS = {
-    ("ah", "i"): "ay", ("ah", "u"): "aw", ("aa", "i"): "ay", ("aa", "u"): "aw", ("ao", "i"): "oy", ("ao", "u"): "ow",
-    ("ow", "i"): "oy", ("ow", "u"): "ow", ("eh", "i"): "eh",
+    "open i": "ay", "open u": "aw", "back i": "oy", "back y": "oy", "back u": "ow", "front i": "eh", "neutral u": "ow",
 }  # fmt: skip
 
 
+def _start(letter: Letter) -> str:
+    if not letter.vowel or letter.rhotic or letter.height < 0.2:
+        return ""
+    if letter.rounded:
+        return "back" if letter.back > 0.4 else ""
+    if letter.letter in "əɘɜɤ":
+        return "neutral"
+    return "front" if letter.back < 0.4 and letter.height < 0.75 else "open"
+
+
+def _end(letter: Letter) -> str:
+    if not letter.vowel:
+        return {"j": "i", "w": "u", "ɥ": "y"}[letter.letter] if letter.glide else ""
+    if letter.rhotic or letter.height > 0.75:
+        return ""
+    if letter.rounded:
+        return ("y" if letter.back < 0.4 else "u") if letter.height < 0.5 or letter.back < 0.4 else ""
+    return "i" if letter.back < 0.4 or letter.height < 0.25 else ""
+
+
 def _diphthong(first: Letter, second: Letter) -> Verdict | None:
-    """The diphthongs that have a class of their own (Table 1: ay, aw, oy, ow, and eh for the vowel of ate)."""
-    if not first.vowel or first.rhotic:
+    """The diphthongs that have a class of their own."""
+    closing = second.glide or second.height < first.height
+    common = _DIPHTHONGS.get(f"{_start(first)} {_end(second)}") if closing else None
+    if common is None:
         return None
-    end, start = _ending(second), _vowel(first)[0]
-    if second.height >= first.height and not second.glide:
-        return None
-    if first.letter == "ə" and end == "u":
-        return "ow", 0.9, "the diphthong of go, as the British say it"
-    if first.letter in "əɤɘ" or not (kind := _DIPHTHONGS.get((start, end))):
-        return None
-    return kind, 0.95, f"a diphthong from {first.letter} to {second.letter}"
+    return Verdict(common, 0.95, f"a diphthong from {first.letter} to {second.letter}", first.text + second.text)
 
 
-def _affricate(first: Letter, second: Letter, tied: bool) -> list[Verdict] | None:
+def _affricate(first: Letter, second: Letter) -> list[Verdict] | None:
     """A stop and its release, or two closures at once, as one sound."""
-    if first.vowel or second.vowel or first.manner not in ("plosive", "nasal"):
+    if first.vowel or second.vowel or first.manner not in ("plosive", "nasal", "implosive"):
         return None
-    if {first.place, second.place} == {"velar", "bilabial"}:
-        return [("bmp", 0.95, "of two closures at once the lips' is seen")]
-    near = first.place == second.place or (first.place in _TIP and second.place in (*_TIP, "palatal"))
-    if second.manner not in ("fricative", "lateral") or not (tied or near or {first.place, second.place} <= set(_LIPS)):
+    text = first.text + second.text
+    places = {first.place, second.place}
+    closures = second.manner in ("plosive", "nasal", "implosive", "trill")
+    if closures and "bilabial" in places and len(places) == 2 and (first.tied or places & {"velar", "uvular"}):
+        return [Verdict("bmp", 0.95, "of two closures at once the lips' is seen", text)]
+    near = any(places <= set(group) for group in (LIPS, (*TIP, "palatal"), BACK, ("pharyngeal", "glottal")))
+    if first.manner != "plosive" or second.manner not in ("fricative", "lateral") or not near:
         return None
     release = _consonant(second)
     if first.place == "bilabial":
         return [_consonant(first), release]
-    return [(release[0], release[1] * 0.95, f"a stop that opens into {second.letter}: {release[2]}")]
+    return [Verdict(release.common, release.confidence * 0.95, f"a stop that opens into {second.letter}: {release.reason}", text)]
 
 
-def _verdicts(letters: tuple[Letter, ...], tied: bool) -> list[Verdict]:
+def _essential(letters: tuple[Letter, ...]) -> tuple[Letter, ...]:
+    """*letters* without those that only accompany another: what is made in the throat, behind a click, or in the nose."""
+    if len(letters) < 2 or any(letter.vowel for letter in letters):
+        return letters
+    if clicks := tuple(letter for letter in letters if "click" in letter.manner):
+        return clicks
+    mouth = tuple(letter for letter in letters if letter.place != "glottal")
+    letters = mouth or letters[:1]
+    if len(letters) > 1 and letters[0].manner == "nasal" and letters[1].manner not in ("nasal", "lateral", "approximant"):
+        same = any({letters[0].place, letters[1].place} <= set(group) for group in (LIPS, (*TIP, "palatal"), ("velar", "uvular")))
+        return letters[1:] if same else letters
+    return letters
+
+
+def released(segment: str) -> tuple[Letter, ...]:
+    """The letters of *segment* that are seen: without what only accompanies, and without a stop that opens into a fricative."""
+    letters = _essential(read_segment(segment).letters)
+    if len(letters) > 1 and letters[0].place not in LIPS and _affricate(letters[0], letters[1]):
+        return letters[1:]
+    return letters
+
+
+def _verdicts(letters: tuple[Letter, ...]) -> list[Verdict]:
     found: list[Verdict] = []
     i = 0
     while i < len(letters):
@@ -137,25 +195,27 @@ def _verdicts(letters: tuple[Letter, ...], tied: bool) -> list[Verdict]:
         joined = None
         if len(pair) == 2:
             diphthong = _diphthong(*pair)
-            joined = [diphthong] if diphthong else _affricate(*pair, tied)
-        if joined:
-            found += joined
-            i += 2
-            continue
-        found += _single(letters[i])
-        i += 1
+            joined = [diphthong] if diphthong else _affricate(*pair)
+        found += joined or _single(letters[i], after_vowel=i > 0 and letters[i - 1].vowel)
+        i += 2 if joined else 1
+        found += _lips(letters[i - 1], found[-1])
     return found
 
 
-def _single(letter: Letter) -> list[Verdict]:
+def _single(letter: Letter, *, after_vowel: bool) -> list[Verdict]:
     if not letter.vowel:
-        return [_consonant(letter)]
+        return [_off_glide(letter) if letter.glide and after_vowel else _consonant(letter)]
     verdict = _vowel(letter)
     # The r of ɚ is all there is; that of ɑ˞ comes after an open vowel.
-    if letter.rhotic and letter.letter not in "əɜ":
-        plain = _vowel(Letter(letter.letter, "vowel", "", letter.height, letter.back, letter.rounded))
-        return [plain, verdict]
-    return [verdict]
+    return [_vowel(replace(letter, rhotic=False)), verdict] if letter.rhotic and letter.letter not in "əɜ" else [verdict]
+
+
+def _lips(letter: Letter, before: Verdict) -> list[Verdict]:
+    """The rounding of kʷ and the like, unless the lips are forward already."""
+    if not letter.labial or before.common in ("w", "ue", "sh"):
+        return []
+    common = "ue" if letter.labial == "ɥ" else "w"
+    return [Verdict(common, 0.8, "the lips round as it is let go")]
 
 
 @cache
@@ -164,81 +224,13 @@ def classify(segment: str) -> Classified | None:
 
     One common phone for most, two and more for diphthongs, affricates and clusters that have no class of their own.
     """
-    letters, tied = read_segment(segment)
+    letters = read_segment(segment).letters
     if not letters:
         return None
-    verdicts = _verdicts(letters, tied)
-    # A glide beside its own vowel (ji, wu) or a long vowel written twice is one movement.
-    kept = [v for i, v in enumerate(verdicts) if i == 0 or v[0] != verdicts[i - 1][0]]
-    return Classified(tuple(v[0] for v in kept), round(min(v[1] for v in kept), 3), "; ".join(v[2] for v in kept))
-
-
-# What is seen, each 0 to 1, and how much it counts.
-_WEIGHTS = {
-    "vowel": 3.0, "open": 3.0, "round": 4.0, "lips": 5.0, "teeth": 4.0, "tip": 2.0, "back": 1.5, "side": 2.0, "rhotic": 2.0, "hiss": 1.0,
-    "hush": 2.0, "depth": 1.0,
-}  # fmt: skip
-_GLIDES = {"j": 0.0, "ɥ": 0.0, "w": 1.0}
-_STEP = 0.5
-
-
-def _seen(letter: Letter) -> dict[str, float]:
-    """How much of each visible thing *letter* has, 0 to 1; what is left out is 0."""
-    if letter.letter in _GLIDES:
-        return {"vowel": 0.7, "round": float(letter.rounded), "depth": _GLIDES[letter.letter]}
-    if letter.vowel:
-        return {"vowel": 1.0, "open": letter.height, "round": float(letter.rounded), "rhotic": float(letter.rhotic), "depth": letter.back}
-    friction, place, tongue_r = letter.manner == "fricative", letter.place, letter.letter in "ɹɻ"
-    hush = friction and place in _HISS
-    return {
-        "vowel": 0.5 if letter.manner == "approximant" else 0.0,
-        "open": 0.4 if place in ("pharyngeal", "glottal") else 0.15,
-        "round": 1.0 if letter.rounded else 0.4 if place == "postalveolar" or tongue_r else 0.0,
-        "lips": (0.4 if friction else 1.0) * (place == "bilabial"),
-        "teeth": 1.0 if place == "labiodental" else 0.5 * (place == "bilabial" and friction),
-        "tip": 1.0 if place in _TIP else 0.3 * (place == "palatal"),
-        "back": float(place in _BACK and not hush),
-        "side": float(letter.manner == "lateral"),
-        "rhotic": 1.0 if tongue_r else 0.5 * (letter.manner == "trill" and place != "bilabial"),
-        "hiss": float(friction),
-        "hush": float(hush),
-        "depth": PLACES.index(place) / (len(PLACES) - 1) if place in PLACES else 0.5,
-    }
-
-
-def _between(one: Letter, other: Letter) -> float:
-    a, b = _seen(one), _seen(other)
-    return sum(weight * abs(a.get(name, 0.0) - b.get(name, 0.0)) for name, weight in _WEIGHTS.items())
-
-
-def _released(segment: str) -> tuple[Letter, ...]:
-    """The letters of *segment* without a stop that only opens into a fricative of its own place."""
-    letters, tied = read_segment(segment)
-    if len(letters) > 1 and letters[0].place not in _LIPS and _affricate(letters[0], letters[1], tied):
-        return letters[1:]
-    return letters
-
-
-@cache
-def distance(one: str, other: str) -> float | None:
-    """How different two IPA segments look, 0 for the same; None when either has no letter of the IPA chart.
-
-    Of an affricate the release is seen. Segments of several letters are compared at their starts and at their ends; each
-    letter that one has more adds a little, so a vowel is nearer to a vowel than to a diphthong.
-    """
-    a, b = _released(one), _released(other)
-    if not a or not b:
-        return None
-    return round((_between(a[0], b[0]) + _between(a[-1], b[-1])) / 2 + _STEP * abs(len(a) - len(b)), 6)
-
-
-def nearest(segment: str, candidates: Mapping[str, str]) -> tuple[str, float] | None:
-    """The name among *candidates* (name to IPA segment) that looks most like *segment*, and how far off it is.
-
-    The first of equals in the order given; None when *segment* or all candidates have no letter of the IPA chart.
-    """
-    found = [(far, name) for name, ipa in candidates.items() if (far := distance(segment, ipa)) is not None]
-    if not found:
-        return None
-    far, name = min(found, key=lambda item: item[0])
-    return name, far
+    kept: list[Verdict] = []
+    for verdict in _verdicts(_essential(letters)):
+        # A glide beside its own vowel (wu) or a long vowel written twice is one movement.
+        if not kept or kept[-1].common != verdict.common:
+            kept.append(verdict)
+    confidence = round(min(verdict.confidence for verdict in kept), 3)
+    return Classified(tuple(v.common for v in kept), confidence, "; ".join(v.reason for v in kept), tuple(kept))

@@ -10,8 +10,9 @@ from types import MappingProxyType
 
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError, PhonesetError, ScheduleError, UnknownSymbolError
-from lipdb.phones.articulation import NEUTRAL, classify, nearest
+from lipdb.phones.articulation import NEUTRAL, classify
 from lipdb.phones.labels import IPA_NOTATIONS, SAMPA_NOTATIONS, Label, read_label
+from lipdb.phones.likeness import nearest
 from lipdb.phones.mapping import ARTICULATION, COMMON, Mapped, Mappings, bracketed, unbracketed
 from lipdb.phones.symbols import Symbols
 from lipdb.schedule import SILENCE, Phone, Schedule
