@@ -101,7 +101,8 @@ class EspeakVoice:
     def read(self, text: str) -> Reading:
         """As `phrases`, with the number of words that are read by the rules of another language."""
         text, _ = self._checked(text)
-        phrases, switches = list[Phrase](), 0
+        phrases: list[Phrase] = []
+        switches = 0
         for phrase in phonemes.phrases(text, self.name):
             bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
             switches += found

@@ -16,7 +16,6 @@ import ctypes
 import os
 import re
 import threading
-from collections.abc import Iterator
 from functools import cache, lru_cache
 from typing import Any
 
@@ -59,19 +58,20 @@ def words(text: str, voice: str) -> list[list[str]]:
     return [word for word in labels if word]
 
 
-def _clauses(raw: bytes, voice: str) -> Iterator[tuple[str, bytes]]:
+def _clauses(raw: bytes, voice: str) -> list[tuple[str, bytes]]:
     """The phonemes of each clause of *raw*, and what the library read for it: to one character behind its end."""
+    clauses = []
+    rest = ctypes.c_char_p(raw)
+    place = ctypes.c_void_p.from_buffer(rest)  # the same pointer, as a number
+    start, done = place.value or 0, 0
     with _SPEAKING:
         translate = _translator(voice)
-        start = ctypes.cast(ctypes.c_char_p(raw), ctypes.c_void_p).value or 0
-        rest, done, clauses = ctypes.c_void_p(start), 0, list[tuple[str, bytes]]()
-        while rest.value:
+        while position := place.value:
+            done = position - start
             clause = translate(ctypes.byref(rest), _TEXT, _IPA)
-            end = rest.value - start if rest.value else len(raw)
             if clause:
-                clauses.append((clause.decode(), raw[done:end]))
-            done = end
-    yield from clauses
+                clauses.append((clause.decode(), raw[done : (place.value or start + len(raw)) - start]))
+    return clauses
 
 
 def _flows(read: str, voice: str) -> bool:
@@ -100,7 +100,7 @@ def _translator(voice: str) -> Any:
     # By index: a function of its own, whose types phonemizer's calls do not set anew.
     translate = wrapper._espeak._library["espeak_TextToPhonemes"]
     translate.restype = ctypes.c_char_p
-    translate.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_int]
+    translate.argtypes = [ctypes.POINTER(ctypes.c_char_p), ctypes.c_int, ctypes.c_int]
     # The library lives as long as its wrapper.
     translate.wrapper = wrapper
     return translate

@@ -106,6 +106,8 @@ def is_plain(text: str) -> bool:
 
     Each character is looked at once in the life of a process, so a text costs no more than the set of its characters.
     """
+    if text.isascii() and text.isprintable():
+        return True
     new = set(text) - _PLAIN
     if new:
         _PLAIN.update(c for c in new if c.isspace() or (c not in _SHADDA and _fold(c) == _spoken(c) == c))
@@ -146,6 +148,8 @@ def check_script(text: str, script: str, *, language: str) -> None:
 
 def _is_within(text: str, script: str) -> bool:
     """Whether every character of *text* belongs to *script* wherever it stands; each is looked at once, as in `is_plain`."""
+    if text.isascii() and "LATIN" in SCRIPTS[script]:
+        return True
     within = _ALLOWED.setdefault(script, set())
     new = set(text) - within
     within.update(c for c in new if _kind(c) in (*SCRIPTS[script], *NEUTRAL, ""))
