@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import wave
 from dataclasses import dataclass
 from pathlib import Path
@@ -68,8 +69,15 @@ def _read_extensible(path: Path) -> Sound:
 
 def write_wav(path: Path, sound: Sound) -> None:
     """Write 16-bit PCM; the same sound gives the same bytes."""
-    with wave.open(str(path), "wb") as file:
-        file.setnchannels(1)
-        file.setsampwidth(2)
-        file.setframerate(sound.rate)
-        file.writeframes(sound.samples.astype("<i2").tobytes())
+    path.write_bytes(wav_bytes(sound))
+
+
+def wav_bytes(sound: Sound) -> bytes:
+    """A wave file of 16-bit PCM."""
+    with io.BytesIO() as buffer:
+        with wave.open(buffer, "wb") as file:
+            file.setnchannels(1)
+            file.setsampwidth(2)
+            file.setframerate(sound.rate)
+            file.writeframes(sound.samples.astype("<i2").tobytes())
+        return buffer.getvalue()

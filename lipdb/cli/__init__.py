@@ -24,10 +24,11 @@ COMMANDS = {
     "phones": ("lipdb.cli.inspect:phones", "Show the phones of a text and the common phones they map to."),
     "pairs": ("lipdb.cli.inspect:pairs", "Show the phone pairs of a text and where their curves come from."),
     "explain": ("lipdb.cli.inspect:explain", "Show what made each weight at one instant."),
-    "language": ("lipdb.cli.language:language", "List and show languages."),
+    "language": ("lipdb.cli.language:language", "List, show, make and check languages."),
     "character": ("lipdb.cli.character:character", "List, show and add characters."),
     "curves": ("lipdb.cli.curves:curves", "Make the shared curves again from their parameters (targets/ and timing/)."),
     "db": ("lipdb.cli.db:db", "Look after the database: history, undo, text in and out."),
+    "dashboard": ("lipdb.cli.dashboard:dashboard", "Open the dashboard in the browser."),
     "doctor": ("lipdb.cli.doctor:doctor", "Show what is installed, what works, and how to mend the rest."),
     "completion": ("lipdb.cli.completion:completion", "Print the completion script of a shell."),
 }

@@ -1,0 +1,67 @@
+"""``lipdb dashboard``: the app in the browser."""
+
+from __future__ import annotations
+
+import click
+
+from lipdb.cli.options import Options
+
+
+@click.command(short_help="Open the dashboard in the browser.")
+@click.option("--port", type=click.IntRange(1, 65535), default=8501, show_default=True, help="Where the browser finds it.")
+@click.option("--address", default="localhost", show_default=True, help="Who may reach it: 0.0.0.0 lets in the whole network.")
+@click.option("--no-browser", is_flag=True, help="Open no browser.")
+@click.pass_obj
+def dashboard(options: Options, /, port: int, address: str, no_browser: bool) -> None:
+    """Preview lines, edit curves, review coverage, add languages and characters, in the browser. Ctrl-C ends it.
+
+    \b
+    Example:
+      lipdb dashboard --port 8600 --no-browser
+    """
+    import os
+    import subprocess
+    import sys
+    from importlib.util import find_spec
+
+    from lipdb.errors import InputError, MissingToolError
+    from lipdb.paths import data_dir
+
+    if find_spec("streamlit") is None:
+        raise MissingToolError("the dashboard needs streamlit; install it with: pip install streamlit")
+    if not _free(address, port):
+        raise InputError(f"port {port} of {address} is taken or can't be used; name another one with --port")
+    with options.open():
+        pass  # Makes or upgrades the database, and says here what is wrong with it.
+    settings = {
+        "server.port": port,
+        "server.address": address,
+        "server.headless": str(no_browser).lower(),
+        "server.maxUploadSize": 64,
+        "browser.gatherUsageStats": "false",
+        "client.toolbarMode": "minimal",
+    }
+    chosen = {"LIPDB_URL": options.db, "LIPDB_PHONESETS": options.phonesets}
+    arguments = [f"--{name}={value}" for name, value in settings.items()]
+    command = [sys.executable, "-m", "streamlit", "run", str(data_dir("dashboard") / "app.py"), *arguments]
+    with subprocess.Popen(command, env={**os.environ, **{name: value for name, value in chosen.items() if value}}) as app:
+        try:
+            code = app.wait()
+        except BaseException:
+            app.terminate()
+            raise
+    sys.exit(code)
+
+
+def _free(address: str, port: int) -> bool:
+    """Whether a server can listen there."""
+    import socket
+
+    try:
+        family = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0][0]
+        with socket.socket(family, socket.SOCK_STREAM) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind((address, port))
+    except OSError:
+        return False
+    return True
