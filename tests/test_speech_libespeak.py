@@ -115,3 +115,9 @@ def test_without_any_library_the_error_says_what_to_install(monkeypatch: pytest.
     monkeypatch.setattr(libespeak, "find_library", lambda name: None)
     with pytest.raises(MissingToolError, match="pip install espeakng-loader"):
         libespeak.find_espeak.__wrapped__()
+
+
+def test_a_voice_is_found_by_its_language_code_too():
+    assert libespeak.speak("huit", "fr-fr").marks == libespeak.speak("huit", "fr").marks
+    with pytest.raises(PhonesetError, match="no voice 'fr-xx'"):
+        libespeak.speak("huit", "fr-xx")

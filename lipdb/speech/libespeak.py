@@ -30,6 +30,7 @@ import numpy as np
 
 from lipdb.errors import MissingToolError, PhonesetError
 from lipdb.sound import Sound
+from lipdb.speech.espeak_voices import set_voice
 
 # From espeak-ng's speak_lib.h.
 AUDIO_SYNCHRONOUS = 2
@@ -127,7 +128,7 @@ def speak(text: str, voice: str, *, phonemes: bool = False) -> Utterance:
         if rate <= 0:
             raise MissingToolError("espeak-ng: its data can't be read; run `pip install --force-reinstall espeakng-loader`")
         try:
-            if library.espeak_SetVoiceByName(voice.encode()) != 0:
+            if not set_voice(library, voice):
                 raise no_such_voice(voice)
             library.espeak_ng_SetRandSeed(ctypes.c_long(SEED))
             with _tracing(library) as clauses:
