@@ -31,6 +31,14 @@ def phonesets_dir(folder: Path | str | None = None) -> Path:
     return expanded(chosen) if chosen else data_dir("phonesets")
 
 
+def workspace_dir(folder: Path | str | None = None) -> Path:
+    """The folder of curated text that a person edits: *folder*, else ``LIPDB_PHONESETS``, else the checkout's, else ``phonesets``
+    in the user's data folder, which need not be there yet; never what was installed.
+    """
+    chosen = phonesets_dir(folder)
+    return home() / "phonesets" if chosen.is_relative_to(_PACKAGE) else chosen
+
+
 def home() -> Path:
     """The folder of a person's own data: ``LIPDB_HOME``, else ``lipdb`` in the place for users' data (XDG)."""
     if chosen := os.environ.get("LIPDB_HOME"):

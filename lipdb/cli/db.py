@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import getpass
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from lipdb.cli.options import Options, json_option, print_json, print_listing
+from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing
 from lipdb.errors import ConflictError, DataError
 
 if TYPE_CHECKING:
@@ -19,17 +18,9 @@ _FOLDER = click.Path(file_okay=False, path_type=Path)
 _Command = Callable[..., Any]
 
 
-def _user() -> str:
-    try:
-        return getpass.getuser()
-    except (OSError, KeyError):
-        return ""
-
-
 def _signed(command: _Command) -> _Command:
     """Add ``--author`` and ``--note``."""
-    command = click.option("--note", default="", help="Why; it stands in the history.")(command)
-    return click.option("--author", default=_user, envvar="LIPDB_AUTHOR", show_default="you", help="Who stands in the history.")(command)
+    return author_option(click.option("--note", default="", help="Why; it stands in the history.")(command))
 
 
 def _open(options: Options) -> Store:

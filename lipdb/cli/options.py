@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import getpass
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -34,6 +35,18 @@ class Options:
         if remind and database.store.outdated:
             click.echo("lipdb: the curated text has changed since this database took it in; merge it with `lipdb db upgrade`", err=True)
         return database
+
+
+def author_option(command: F) -> F:
+    """Add ``--author``."""
+    return click.option("--author", default=_user, envvar="LIPDB_AUTHOR", show_default="you", help="Who stands in the history.")(command)
+
+
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError):
+        return ""
 
 
 def json_option(command: F) -> F:

@@ -11,11 +11,11 @@ from lipdb.errors import PhonesetError
 from lipdb.files import whole_file
 
 
-def scan_folder(folder: Path) -> tuple[dict[str, dict[Key, Row]], list[Finding]]:
-    """Every table below *folder*, and everything that is wrong in it, all at once."""
+def scan_folder(folder: Path, *, below: str = "") -> tuple[dict[str, dict[Key, Row]], list[Finding]]:
+    """Every table of *folder*, or only those in its folder *below*, and everything that is wrong in it, all at once."""
     records: dict[str, dict[Key, Row]] = {}
     findings: list[Finding] = []
-    for file in sorted(folder.rglob("*.tsv")):
+    for file in sorted((folder / below).rglob("*.tsv")):
         path = file.relative_to(folder).as_posix()
         table = table_of(path)
         if table is None:

@@ -1,0 +1,163 @@
+"""Make the folder of a new language from a voice of espeak-ng and a text: every row a proposal, none of it hidden."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lipdb.curated.check import check
+from lipdb.curated.folder import write_folder
+from lipdb.curated.schema import TIME_FORMAT
+from lipdb.curated.tsv import Records
+from lipdb.errors import InputError, OutputError, PhonesetError
+from lipdb.languages.propose import NOTATION, Phone, alias_rows, phone_rows, propose_phones, table
+from lipdb.languages.sample import symbols_of
+from lipdb.languages.text import chosen, examples_for, script_in, sentences_of, words_of
+
+if TYPE_CHECKING:
+    from lipdb.speech.espeak import EspeakVoice
+    from lipdb.speech.voice import Phrases
+
+CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
+SENTENCES = 200
+NUMBERS = (*range(101), 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1_000_000)
+_AT_ONCE = 5
+LANGUAGE_COMMENT = "Proposed by rule from what espeak says; to be reviewed"
+
+
+@dataclass(frozen=True, slots=True)
+class NewLanguage:
+    """The *folder* that was made, its *phones*, how many *sentences* it has, and *notes* for the person in a line each."""
+
+    language: str
+    folder: Path
+    phones: tuple[Phone, ...]
+    sentences: int
+    notes: tuple[str, ...]
+
+
+def new_language(
+    code: str,
+    folder: Path,
+    *,
+    records: Records,
+    voice: str,
+    author: str,
+    name: str = "",
+    script: str = "",
+    text: str | None = None,
+    source: str = "",
+) -> NewLanguage:
+    """Make ``folder/code`` with every phone that espeak's *voice* was heard to say in *text*.
+
+    *source* names the row of sources.tsv that says whose text it is. Without a text the voice reads numbers and letters, and
+    there are no sentences. *records* are the curated data that the language joins. Nothing is written unless all is well.
+    Raises `InputError`, `MissingToolError`, `OutputError`, and `PhonesetError` when *records* lack what the rows mention.
+    """
+    from lipdb.speech.espeak import EspeakVoice
+    from lipdb.speech.espeak_voices import espeak_voices, known_voice, letters_of, script_of
+
+    _require_free(code, folder, records)
+    known_voice(voice)
+    sentences = () if text is None else _sentences(text, source, records)
+    script = script or script_in(text or "") or script_of(voice)
+    spoken = EspeakVoice(voice, code, script)
+    said, notes = _hear(spoken, sentences or _numbers_and_letters(letters_of(script)))
+    words = _hear(spoken, words_of(said) if sentences else list(said))[0]
+    heard = Counter(symbol for phrases in said.values() for symbol in symbols_of(phrases))
+    proposed = propose_phones(heard, examples_for(heard, list(words.items()), said), records)
+    notes += [f"label {label!r} of espeak is no IPA segment; give it a row in {code}/aliases.tsv" for label in proposed.strange]
+    kept = chosen(said, SENTENCES) if len(said) > SENTENCES else list(said)
+    if not sentences:
+        kept = []
+        notes.append("no text: the voice read numbers and letters only; give a --text for phones that these lack, and for sentences")
+    row = {"language": code, "name": name or espeak_voices()[voice], "notation": NOTATION, "speech": "espeak", "voice": voice}
+    tables = {
+        "language": [row | {"script": script, "source": "lipdb", "comment": LANGUAGE_COMMENT}],
+        "phones": phone_rows(proposed, author=author, time=datetime.now(UTC).strftime(TIME_FORMAT)),
+        "aliases": alias_rows(proposed, records),
+        "sentences": ({"sentence": sentence, "source": source} for sentence in kept),
+    }
+    own = {path: rows for kind, cells in tables.items() if (rows := table(path := f"{code}/{kind}.tsv", cells))}
+    wrong = [one for one in check({**records, **own}) if one.file in own]
+    if wrong:
+        raise PhonesetError(f"the curated data lack what {code} needs: {wrong[0]}")
+    _write(own, folder, code)
+    return NewLanguage(code, folder / code, proposed.phones, len(kept), tuple(notes))
+
+
+def _sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
+    """The sentences of *text*, which must have some, and a source."""
+    sentences = sentences_of(text)
+    if not sentences:
+        raise InputError("text: there is no word in it; give a text of the language, a few hundred sentences if you can")
+    if (source,) not in records.get("sources.tsv", {}):
+        raise InputError(f"no source {source!r}; name the row of sources.tsv that says whose text it is (user: your own work)")
+    return sentences
+
+
+def _require_free(code: str, folder: Path, records: Records) -> None:
+    if not CODE.fullmatch(code):
+        raise InputError(
+            f"{code!r} is no code of a language; take two or three small letters (ISO 639), such as pl, or pl_east for a variety"
+        )
+    if (folder / code).exists():
+        raise InputError(f"{folder / code} is there already; edit it, or choose another code")
+    if f"{code}/language.tsv" in records:
+        raise InputError(f"language {code!r} is there already; edit it, or choose another code")
+
+
+def _hear(voice: EspeakVoice, sentences: tuple[str, ...] | list[str]) -> tuple[dict[str, Phrases], list[str]]:
+    """What *voice* makes of each sentence that it reads by its own rules, and notes on those left out.
+
+    Raises `InputError` when it reads none of them.
+    """
+    said: dict[str, Phrases] = {}
+    refused: list[str] = []
+    foreign = 0
+    for sentence in sentences:
+        try:
+            reading = voice.read(sentence)
+        except InputError as error:
+            refused.append(str(error).removeprefix("text: "))
+            continue
+        if reading.foreign:
+            foreign += 1
+        elif reading.phrases:
+            said[sentence] = reading.phrases
+    if not said:
+        why = refused[0] if refused else "it reads all of it as another language"
+        raise InputError(f"text: the voice {voice.name} can read none of {len(sentences)} sentences: {why}")
+    notes = [f"{len(refused)} of {len(sentences)} sentences are left out: {refused[0]}"] if refused else []
+    if foreign:
+        notes.append(f"{foreign} of {len(sentences)} sentences are left out: the voice reads words in them by another language's rules")
+    return said, notes
+
+
+def _numbers_and_letters(letters: tuple[str, ...]) -> list[str]:
+    """What every voice of espeak can read: numbers and the letters of its script."""
+    numbers = [str(number) for number in NUMBERS]
+    return [*(" ".join(numbers[i : i + _AT_ONCE]) for i in range(0, len(numbers), _AT_ONCE)), *letters]
+
+
+def _write(own: Mapping[str, Mapping[tuple[str, ...], dict[str, str]]], folder: Path, code: str) -> None:
+    """Write the tables into a temporary folder and move it into place, so that there is all of it or nothing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        temporary = Path(tempfile.mkdtemp(dir=folder, prefix=".lipdb-"))
+    except OSError as error:
+        raise OutputError(f"{folder}: can't be written ({error.strerror}); choose another folder with -o") from error
+    try:
+        write_folder(own, temporary)
+        (temporary / code).rename(folder / code)
+    except OSError as error:
+        raise OutputError(f"{folder / code}: can't be written ({error.strerror})") from error
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
