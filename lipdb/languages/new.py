@@ -62,7 +62,7 @@ def new_language(
     Raises `InputError`, `MissingToolError`, `OutputError`, and `PhonesetError` when *records* lack what the rows mention.
     """
     from lipdb.speech.espeak import EspeakVoice
-    from lipdb.speech.espeak_voices import espeak_voices, known_voice, letters_of, script_of
+    from lipdb.speech.espeak_list import espeak_voices, known_voice, letters_of, script_of
 
     _require_free(code, folder, records)
     known_voice(voice)
