@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
     from lipdb.curves.curve import Curve, CurveKey
     from lipdb.curves.lookup import CurveBook
+    from lipdb.engine import Stages
     from lipdb.performance import Performance
     from lipdb.phones.phoneset import PhoneSet, Unknown
     from lipdb.poses import PoseSet
@@ -52,8 +53,9 @@ def open(url: str | None = None, *, phonesets: str | Path | None = None) -> Data
 class Database:
     """Curated data, and everything that is made with it. Use it as a context manager, or `close` it."""
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: Store, *, revision: int | None = None) -> None:
         self.store = store
+        self._revision = revision
         self._records: tuple[int, Records] | None = None
         self._voices: dict[str, Voice] = {}
 
@@ -70,11 +72,17 @@ class Database:
     @property
     def records(self) -> Records:
         """All the curated data as it stands now; read again only when somebody has edited it."""
-        revision = self.store.revision
+        revision = self._revision or self.store.revision
         if self._records is None or self._records[0] != revision:
-            self._records = revision, self.store.records()
+            self._records = revision, self.store.at(revision) if self._revision else self.store.records()
             self._voices.clear()
         return self._records[1]
+
+    def at(self, revision: int) -> Database:
+        """The same database as it stood at *revision*, to look at and to play. Raises `InputError` when there is none."""
+        past = Database(self.store, revision=revision)
+        _ = past.records  # a revision that there is not is told here
+        return past
 
     def edit(self, *, author: str, note: str = "") -> AbstractContextManager[Edit]:
         """One transaction of edits: `put` and `delete` rows inside the block. See `lipdb.store`."""
@@ -246,6 +254,14 @@ class Database:
         """The pairs of *counts*, in its order, with the winning curve of every pose of *character* in *language*."""
         who = self.character(character) if isinstance(character, str) else character
         return pair_uses(self.book(who.pose_set, language=language, character=who.name), counts.items())
+
+    def stages(self, line: Line, *, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS) -> Stages:
+        """What every stage of the engine makes of *line* on *character*, and the curves as they are laid on the time line."""
+        from lipdb import engine
+
+        who, line, book = self._prepare(line, character)
+        edges, phones = line.schedule.common()
+        return engine.stages(book.table(phones), self.pose_set(who.pose_set), edges, phones, fps=fps)
 
     def explain(self, line: Line, *, at: float, character: str | Character = DEFAULT_CHARACTER, fps: float = DEFAULT_FPS) -> list[Cause]:
         """What made each pose's weight at the frame nearest to *at* seconds, in the order of the pose set.
