@@ -72,6 +72,16 @@ def _curve(_parts: Parts, row: Row, _names: Names) -> Iterator[tuple[str, str]]:
         yield "keys", "a curve into silence must end with weight 0"
 
 
+def _common_phone(_parts: Parts, row: Row, names: Names) -> Iterator[tuple[str, str]]:
+    rows, above = names.records["common.tsv"], [row["phone"]]
+    while (phone := rows.get((above[-1],), {}).get("kind_of", "")) and phone not in above:
+        above.append(phone)
+    if phone == row["phone"]:
+        yield "kind_of", f"{row['phone']!r} would be a kind of itself: {' > '.join([*above, phone])}"
+    elif SILENCE in above and row["kind_of"]:
+        yield "kind_of", "silence has no kinds"
+
+
 def _alias(parts: Parts, row: Row, names: Names) -> Iterator[tuple[str, str]]:
     language, symbol = parts["language"], row["symbol"]
     if symbol != unicodedata.normalize("NFC", symbol):
@@ -105,6 +115,7 @@ def _character(parts: Parts, row: Row, names: Names) -> Iterator[tuple[str, str]
 
 
 _SPECIAL: Mapping[str, Callable[[Parts, Row, Names], Iterator[tuple[str, str]]]] = {
+    "common.tsv": _common_phone,
     "poses/sets.tsv": _pose_set,
     "constraints/{pose_set}.tsv": _constraint,
     "curves/{pose_set}.tsv": _curve,

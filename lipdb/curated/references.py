@@ -82,7 +82,10 @@ _CURVE = (*_PAIR, Reference("pose", "pose", _set_poses))
 SOURCE = Reference("source", "source", lambda names, _parts, _row: names.sources)
 
 REFERENCES: Mapping[str, tuple[Reference, ...]] = {
-    "common.tsv": (Reference("language", "language", lambda names, _parts, _row: names.languages),),
+    "common.tsv": (
+        Reference("language", "language", lambda names, _parts, _row: names.languages),
+        Reference("kind_of", "common phone", _common),
+    ),
     "ipa.tsv": (_COMMON,),
     "shape_names.tsv": (_set("pose_set"), Reference("pose", "pose", lambda names, _parts, row: names.poses(row["pose_set"]))),
     "constraints/{pose_set}.tsv": (Reference("pose", "pose", _set_poses), Reference("other", "pose", _set_poses)),

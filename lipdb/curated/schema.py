@@ -129,12 +129,13 @@ _LINK = _columns(
 
 TABLES: tuple[Table, ...] = (
     Table("sources.tsv", _columns("source title licence url? comment?", source=_name, licence=_name), ("source",)),
-    # Common phones. *ipa* is a typical segment of the class: what "nearest by articulation" compares.
+    # Common phones. *ipa* is a typical segment of the class: what "nearest by articulation" compares. *kind_of* is the coarser
+    # phone that a refined one was split from (empty: none): until somebody draws its own curves, it uses those.
     Table(
         "common.tsv",
         _columns(
-            "phone kind ipa? language? example? " + _SOURCED,
-            phone=_name, kind=_one_of("vowel", "consonant", "silence"), source=_name,
+            "phone kind ipa? language? example? kind_of? " + _SOURCED,
+            phone=_name, kind=_one_of("vowel", "consonant", "silence"), kind_of=_name, source=_name,
         ),
         ("phone",),
     ),

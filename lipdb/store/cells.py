@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
 from typing import Any
 
+from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row
 from lipdb.store.provenance import PROVENANCE
 
@@ -31,23 +33,33 @@ def key_from(text: str) -> Key:
     return tuple(json.loads(text))
 
 
-def row_from(text: str | None) -> Row | None:
-    """The row that `cells_text` wrote; None for none."""
-    if text is None:
-        return None
-    row: Row = json.loads(text)
-    return row
+def row_from(path: str, text: str | None) -> Row | None:
+    """The row of the table *path* that `cells_text` wrote; None for none. Columns as for `records_from`."""
+    return None if text is None else _completed(json.loads(text), _optional(path))
 
 
 def records_from(rows: Sequence[tuple[str, str, str]]) -> dict[str, dict[Key, Row]]:
-    """Records of ``(path, key, cells)`` as stored."""
+    """Records of ``(path, key, cells)`` as stored; optional columns that came later than a row are empty in it."""
     # One call of the JSON reader for everything: a call a row costs four times as much.
     keys: list[list[str]] = _parse_all(row[1] for row in rows)
     cells: list[Row] = _parse_all(row[2] for row in rows)
     records: dict[str, dict[Key, Row]] = {}
+    optional = {path: _optional(path) for path in {row[0] for row in rows}}
     for (path, _, _), key, row in zip(rows, keys, cells, strict=True):
-        records.setdefault(path, {})[tuple(key)] = row
+        records.setdefault(path, {})[tuple(key)] = _completed(row, optional[path])
     return records
+
+
+def _completed(row: Row, optional: frozenset[str]) -> Row:
+    """*row* with the *optional* columns that came later than it."""
+    later = optional - row.keys()
+    return {**row, **dict.fromkeys(later, "")} if later else row
+
+
+@cache
+def _optional(path: str) -> frozenset[str]:
+    table = table_of(path)
+    return frozenset(column.name for column in table.columns if column.optional) if table else frozenset()
 
 
 def _parse_all(texts: Iterable[str]) -> list[Any]:

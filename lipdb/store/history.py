@@ -79,7 +79,7 @@ def read_changes(
     columns = (change.c.revision_id, change.c.path, change.c.key, change.c.before, change.c.after)
     query = sa.select(*columns).where(*wanted, *_below(prefix, key)).order_by(change.c.revision_id, change.c.id)
     return [
-        Change(number, path, key_from(key_json), row_from(before), row_from(after))
+        Change(number, path, key_from(key_json), row_from(path, before), row_from(path, after))
         for number, path, key_json, before, after in connection.execute(query)
     ]
 

@@ -107,7 +107,7 @@ def present_rows(connection: sa.Connection, places: Mapping[Place, object]) -> d
         while chunk := dict(islice(keys, _CHUNK)):
             query = sa.select(record.c.key, record.c.cells, record.c.revision).where(record.c.path == path, record.c.key.in_(chunk))
             for text, cells, number in connection.execute(query):
-                found[path, chunk[text]] = Present(row_from(cells) or {}, number)
+                found[path, chunk[text]] = Present(row_from(path, cells) or {}, number)
     return found
 
 
