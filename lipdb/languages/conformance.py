@@ -7,7 +7,6 @@ records and labels come back as they were; no symbol means two things; every pho
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,11 +14,11 @@ from lipdb.curated.check import check
 from lipdb.curated.folder import scan_folder, write_folder
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Finding, format_rows
-from lipdb.errors import InputError, LipdbError, PhonesetError
+from lipdb.errors import LipdbError, PhonesetError
 from lipdb.languages.folder import SHARED, LanguageFolder, Places, find_language, read_language
 from lipdb.languages.report import Coverage, Remark, Report
 from lipdb.languages.rules import rules
-from lipdb.languages.sample import Hearing, Sample, listen
+from lipdb.languages.sample import Hearing
 from lipdb.phones.phoneset import PhoneSet
 
 if TYPE_CHECKING:
@@ -28,8 +27,6 @@ if TYPE_CHECKING:
 TABLES = ("language", "phones", "aliases", "sentences")
 """What a language must have."""
 SHOWN = 12
-PROBE = "1"
-"""What a voice is asked for to see whether it is there; every language has numbers."""
 
 
 def check_language(code: str, folder: Path, *, base: Path) -> Report:
@@ -46,7 +43,7 @@ def check_language(code: str, folder: Path, *, base: Path) -> Report:
         phoneset = PhoneSet.from_records(found.records, code)
         remarks += rules(found, phoneset)
         try:
-            hearing = Hearing(found, phoneset, _sample(found))
+            hearing = Hearing(found, phoneset, _voice(found))
         except LipdbError as error:
             what = f"the voice can't be heard, so nothing that it says is checked: {error}"
             remarks.append(Remark(f"{code}/language.tsv", (code,), "voice", what))
@@ -111,14 +108,6 @@ def _why(given: bytes) -> str:
     if b"\r" in given:
         return " (its lines end with CR LF)"
     return "" if given.endswith(b"\n") else " (the last line has no end)"
-
-
-def _sample(found: LanguageFolder) -> Sample:
-    """The sample text in the language's voice. Raises `LipdbError` when the voice can't be had."""
-    voice = _voice(found)
-    with suppress(InputError):
-        voice.phrases(PROBE)
-    return listen(voice, (sentence for (sentence,) in found.rows("sentences")))
 
 
 def _voice(found: LanguageFolder) -> Voice:

@@ -55,7 +55,8 @@ def _joined(folder: LanguageFolder, phoneset: PhoneSet) -> Iterator[Remark]:
     """A symbol that holds a joint is not also several symbols in a row with another meaning; nor is a phone a syllable."""
     for key, row in folder.rows("aliases").items():
         words = [word for word in JOINTS.split(row["symbol"]) if word]
-        if len(words) < 2:
+        # Labels of espeak come one by one, and one of its signs is a full stop.
+        if len(words) < 2 or row["notation"] == "espeak":
             continue
         read = [phoneset.symbols.parts(word, row["notation"], common=False) for word in words]
         apart = tuple(part for parts in read for part in parts)
@@ -122,7 +123,8 @@ def _phones(folder: LanguageFolder) -> Iterator[Remark]:
         if row["comment"].startswith(REVIEW):
             yield Remark(path, key, "comment", row["comment"], note=True)
         elif " " not in row["ipa"] and (guess := propose(row["ipa"], known)).common not in ((), tuple(row["common"].split())):
-            message = f"{REVIEW} {row['ipa']} maps to {row['common']} here, articulation says {' '.join(guess.common)} ({guess.reason})"
+            why = guess.reason.partition(f"; {REVIEW}")[0]
+            message = f"{REVIEW} {row['ipa']} maps to {row['common']} here, articulation says {' '.join(guess.common)} ({why})"
             yield Remark(path, key, "common", message, note=True)
         letters = read_segment(row["ipa"]).letters
         if not letters:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise, product
 from typing import TYPE_CHECKING
@@ -20,6 +21,10 @@ from lipdb.schedule import MICROSECONDS, SILENCE, Phone, Schedule
 
 if TYPE_CHECKING:
     from lipdb.speech.voice import Phrases, Voice
+
+
+PROBE = "1"
+"""What a voice is asked for to see whether it is there; every language has numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +52,24 @@ def symbols_of(phrases: Phrases) -> Iterator[str]:
 
 
 class Hearing:
-    """A sample, with the phones that its symbols stand for in *phoneset*."""
+    """What *voice* says of a language's sentences and example words, with the phones that it stands for in *phoneset*.
 
-    def __init__(self, folder: LanguageFolder, phoneset: PhoneSet, sample: Sample) -> None:
-        self.folder, self.phoneset, self.sample = folder, phoneset, sample
-        self.counts = Counter(symbol for phrases in sample.said.values() for symbol in symbols_of(phrases))
-        self.notation = phoneset.notation_of(_schedule(self.counts, folder.code))
+    Raises `LipdbError` when the voice can't be had.
+    """
+
+    def __init__(self, folder: LanguageFolder, phoneset: PhoneSet, voice: Voice) -> None:
+        self.folder, self.phoneset, self.notation = folder, phoneset, voice.notation
+        with suppress(InputError):
+            voice.phrases(PROBE)
+        self.sample = listen(voice, (sentence for (sentence,) in folder.rows("sentences")))
+        # An example may be several words, and in another script than its own as well.
+        words = {word for row in folder.rows("phones").values() for word in row["example"].replace(",", " ").split()}
+        self.examples = {word: self._phones(symbols_of(phrases)) for word, phrases in listen(voice, sorted(words)).said.items()}
+        self.counts = Counter(symbol for phrases in self.sample.said.values() for symbol in symbols_of(phrases))
         self.parts = {symbol: phoneset.symbols.parts(symbol, self.notation) for symbol in self.counts}
+
+    def _phones(self, symbols: Iterable[str]) -> frozenset[str]:
+        return frozenset(part for symbol in symbols for part in self.phoneset.symbols.parts(symbol, self.notation))
 
     @property
     def phones(self) -> frozenset[str]:
@@ -66,12 +82,23 @@ class Hearing:
         for sentence, why in self.sample.refused.items():
             yield Remark(path, (sentence,), "sentence", f"the voice can't read this: {why}")
         yield from self._symbols(path)
+        yield from self._unheard(path)
+
+    def _unheard(self, path: str) -> Iterator[Remark]:
+        """Phones that the voice does not say in their example; those that it says there, but in no sentence, are errors."""
         heard = self.phones
-        # Where there are no sentences at all, one finding says so.
-        for key in self.folder.rows("phones") if self.sample.said else ():
-            if key[0] not in heard:
-                message = f"{key[0]!r} occurs in no sentence of {path}; write one with it"
-                yield Remark(f"{self.folder.code}/phones.tsv", key, "phone", message)
+        for key, row in self.folder.rows("phones").items():
+            phone, words = row["phone"], row["example"].replace(",", " ").split()
+            shown = any(phone in self.examples.get(word, ()) for word in words)
+            # Where there are no sentences at all, one finding says so.
+            if phone not in heard and self.sample.said:
+                what = "write one with it" if shown else "the voice does not say it in its example either"
+                message = f"{phone!r} occurs in no sentence of {path}; {what}"
+                yield Remark(f"{self.folder.code}/phones.tsv", key, "phone", message, note=not shown)
+            elif not shown:
+                yield Remark(
+                    f"{self.folder.code}/phones.tsv", key, "example", f"the voice does not say {phone!r} in {row['example']}", note=True
+                )
 
     def _symbols(self, path: str) -> Iterator[Remark]:
         missing = [symbol for symbol, parts in self.parts.items() if not parts]

@@ -74,6 +74,11 @@ class EspeakVoice:
     symbols: frozenset[str] = frozenset()
 
     @property
+    def notation(self) -> str:
+        """The notation of its symbols."""
+        return NOTATION
+
+    @property
     def version(self) -> str:
         """Library, package, settings and the labels that decide whether a length stays."""
         digest = hashlib.sha256(repr(sorted(self.symbols)).encode()).hexdigest()[:12]

@@ -57,6 +57,11 @@ class KanaVoice:
     reader: JapaneseReader
 
     @property
+    def notation(self) -> str:
+        """The notation of its symbols."""
+        return NOTATION
+
+    @property
     def version(self) -> str:
         """Library, packages, settings and the tables that decide readings."""
         tables = sorted(self.reader.readings.items()), sorted(self.syllables.phones.items())

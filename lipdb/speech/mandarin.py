@@ -69,6 +69,11 @@ class PinyinVoice:
     segments: frozenset[str]
 
     @property
+    def notation(self) -> str:
+        """The notation of its symbols."""
+        return NOTATION
+
+    @property
     def version(self) -> str:
         """Library, packages, settings and the tables that decide readings."""
         tables = sorted(self.reader.readings.items()), sorted(self.reader.syllables.phones.items()), sorted(self.segments)

@@ -55,6 +55,10 @@ class Voice(Protocol):
         """The code of the language it speaks."""
 
     @property
+    def notation(self) -> str:
+        """The notation of its symbols."""
+
+    @property
     def version(self) -> str:
         """Everything but the text that decides the result: programs with their versions, settings."""
 
