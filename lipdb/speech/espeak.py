@@ -9,8 +9,8 @@ from __future__ import annotations
 import hashlib
 import re
 from bisect import bisect_right
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from importlib.metadata import version as package_version
 from itertools import groupby, repeat
@@ -23,6 +23,7 @@ from lipdb.errors import PhonesetError
 from lipdb.schedule import SILENCE, Phone
 from lipdb.sound import Sound
 from lipdb.speech import libespeak, phonemes
+from lipdb.speech.arabic import spelt_for_espeak
 from lipdb.speech.closures import restore_closures, share_swallowed
 from lipdb.speech.context import in_context
 from lipdb.speech.libespeak import Mark
@@ -45,6 +46,7 @@ SENTENCE_END = re.compile(
     r"(?<=[^\W\d_]{3})(?<!\betc)(?<!\best)(?<!\binc)(?<!\bltd)(?<!\bdept)(?<!approx)"
     r"(?<!\bруб)(?<!\bкоп)(?<!\bтыс)(?<!\bмлн)(?<!\bмлрд)(?<!\bстр)(?<!\bтел)\.(?=[\"'”’»)]? [a-zß-ÿа-яё])"
 )
+WRITTEN = re.compile(r"\S+")
 EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。।॥،؛؟۔…–—-]+$")
 
 
@@ -53,7 +55,8 @@ def espeak_voice(records: Records, language: str) -> EspeakVoice:
     row = language_row(records, language)
     aliases = records.get(f"{language}/aliases.tsv", {})
     symbols = frozenset(symbol for notation, symbol in aliases if notation == NOTATION)
-    return EspeakVoice(row["voice"], language, row["script"], symbols)
+    readings = {word: reading["reading"] for (word,), reading in records.get(f"{language}/readings.tsv", {}).items()}
+    return EspeakVoice(row["voice"], language, row["script"], symbols, readings)
 
 
 def language_row(records: Records, language: str) -> Row:
@@ -66,12 +69,16 @@ def language_row(records: Records, language: str) -> Row:
 
 @dataclass(frozen=True, slots=True)
 class EspeakVoice:
-    """A voice of espeak-ng; see `lipdb.speech.voice.Voice`. *symbols* are the labels that the alias table knows."""
+    """A voice of espeak-ng; see `lipdb.speech.voice.Voice`.
+
+    *symbols* are the labels that the alias table knows; *readings* has words and how to spell them so that espeak says them.
+    """
 
     name: str
     language: str
     script: str
     symbols: frozenset[str] = frozenset()
+    readings: Mapping[str, str] = field(default_factory=dict, hash=False)
 
     @property
     def notation(self) -> str:
@@ -80,8 +87,9 @@ class EspeakVoice:
 
     @property
     def version(self) -> str:
-        """Library, package, settings and the labels that decide whether a length stays."""
-        digest = hashlib.sha256(repr(sorted(self.symbols)).encode()).hexdigest()[:12]
+        """Library, package, settings, the labels that decide whether a length stays and the words that are respelt."""
+        tables = sorted(self.symbols), sorted(self.readings.items())
+        digest = hashlib.sha256(repr(tables).encode()).hexdigest()[:12]
         return f"espeak-ng {libespeak.espeak_version()}; lipdb {package_version('lipdb')}; {SETTINGS}; labels {digest}"
 
     def raw(self) -> EspeakVoice:
@@ -120,7 +128,8 @@ class EspeakVoice:
         check_script(cleaned, self.script, language=self.language)
         # Most lines have a full stop only at their end: looking for it is quicker than the expression.
         ended = SENTENCE_END.sub(FULL_STOP, cleaned) if "." in cleaned[:-1] else cleaned
-        return ended, notes
+        spelt = respelt(ended, self.readings) if self.readings else ended
+        return spelt_for_espeak(spelt) if self.script == "Arab" else spelt, notes
 
     def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
         """The phones of *labels* (empty: a pause), of which each belongs to a word."""
@@ -136,6 +145,17 @@ def _phone(label: str, symbol: str, word: int) -> Phone:
     stress = next((level for mark, level in STRESS.items() if mark in label), 0)
     bare = unstressed(label)
     return Phone(symbol, word=word, stress=stress, long="ː" in label or undoubled(bare) != bare)
+
+
+def respelt(text: str, readings: Mapping[str, str]) -> str:
+    """*text* with every word that *readings* has, in small letters, spelt as they say, the signs around it kept."""
+
+    def spelt(token: re.Match[str]) -> str:
+        word = EDGE.sub("", token[0])
+        reading = readings.get(word.lower())
+        return token[0] if reading is None else token[0].replace(word, reading, 1)
+
+    return WRITTEN.sub(spelt, text)
 
 
 def unstressed(label: str) -> str:
@@ -171,7 +191,7 @@ def words_of(text: str, marks: tuple[Mark, ...]) -> tuple[tuple[str, ...], list[
     A written word is what stands between spaces, without punctuation at its edges; espeak's word events point into it,
     several of them into a number. Written words that are said as one ("of the") are one word.
     """
-    tokens = [m.span() for m in re.finditer(r"\S+", text)]
+    tokens = [m.span() for m in WRITTEN.finditer(text)]
     starts = [start for start, _ in tokens]
     # Within numbers the positions jump back and forth, so none may be before the last.
     positions = np.maximum.accumulate([bisect_right(starts, max(m.position, 0)) - 1 for m in marks])
