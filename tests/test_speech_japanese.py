@@ -12,7 +12,7 @@ from lipdb.errors import InputError, MissingToolError
 from lipdb.speech import japanese_words
 from lipdb.speech.japanese import KanaVoice, kana_voice
 from lipdb.speech.japanese_words import JapaneseReader, Pause
-from lipdb.speech.kana import morae, sounds, to_katakana, with_long_vowels
+from lipdb.speech.kana import morae, sounds_of, to_katakana, with_long_vowels
 
 RECORDS = read_folder(Path(__file__).parents[1] / "phonesets")
 VOICE = kana_voice(RECORDS, "ja")
@@ -24,7 +24,7 @@ def _said(text: str, voice: KanaVoice = VOICE) -> str:
 
 
 def _phones(kana: str) -> str:
-    return " ".join(f"{sound.phone}{':' * sound.long}" for sound in sounds(morae(kana, VOICE.syllables.phones, 0)))
+    return " ".join(f"{sound.phone}{':' * sound.long}" for sound in sounds_of(morae(kana, VOICE.syllables.phones, 0)))
 
 
 def _read(text: str) -> list[str]:

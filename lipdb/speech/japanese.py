@@ -8,27 +8,21 @@ phone by phone; its own reading of kana is not used (it says hp for っぱ and r
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as package_version
-from itertools import groupby
 from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
 
 from lipdb.errors import InputError
 from lipdb.phones.syllables import Syllables
-from lipdb.schedule import SILENCE, Phone
-from lipdb.speech import libespeak
-from lipdb.speech.espeak import FULL_STOP, SETTINGS, language_row, mended_edges, without_short_pauses
+from lipdb.speech import libespeak, sounds
+from lipdb.speech.espeak import SETTINGS, language_row
 from lipdb.speech.japanese_words import PACKAGE, JapaneseReader, Pause, Token, Word
-from lipdb.speech.kana import Mora, Sound, morae, sounds
-from lipdb.speech.libespeak import Mark
-from lipdb.speech.mandarin import runs
+from lipdb.speech.kana import Mora, morae, sounds_of
+from lipdb.speech.sounds import Breath
 from lipdb.speech.text import check_script, clean
-from lipdb.speech.voice import Phrases, Spoken, lay_out
+from lipdb.speech.voice import Phrases, Spoken
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records
@@ -79,23 +73,14 @@ class KanaVoice:
     def speak(self, text: str) -> Spoken:
         """Speak *text*: phones with length; words are those of the dictionary, as they are written."""
         tokens, notes = self._tokens(text)
-        words = [token for token in tokens if isinstance(token, Word)]
-        script, chunks = respell(self._breaths(tokens), words)
-        utterance = libespeak.speak(script, self.name, phonemes=True)
-        marks = without_short_pauses(utterance.marks, utterance.sound.rate)
-        edges = mended_edges(marks, utterance.sound)
-        times, phones = zip(*_timed(chunks, marks, edges), strict=True)
-        written = tuple(word.written for word in words)
-        schedule = lay_out(np.array([*times, edges[-1]]), phones, language=self.language, notation=NOTATION, words=written)
-        return Spoken(schedule, utterance.sound, notes)
+        words = [sounds.Word(token.written, token.joined) for token in tokens if isinstance(token, Word)]
+        spoken = sounds.speak(list(self._breaths(tokens)), words, voice=self.name, language=self.language, notation=NOTATION)
+        return replace(spoken, notes=notes)
 
     def phrases(self, text: str) -> Phrases:
         """The phones of every word, a phrase for every breath."""
         tokens, _ = self._tokens(text)
-        return tuple(
-            tuple(tuple(sound.phone for sound in word) for _, word in groupby(breath, key=lambda sound: sound.word))
-            for breath, _ in self._breaths(tokens)
-        )
+        return sounds.phrases(self._breaths(tokens))
 
     def _tokens(self, text: str) -> tuple[list[Token], tuple[str, ...]]:
         """Words that sound, and pauses."""
@@ -122,51 +107,13 @@ class KanaVoice:
                 found.append(token)
         return found
 
-    def _breaths(self, tokens: Iterable[Token]) -> Iterator[tuple[list[Sound], str]]:
-        """The sounds between one pause and the next, and the mark that ends them."""
+    def _breaths(self, tokens: Iterable[Token]) -> Iterator[Breath]:
         row, number = list[Mora](), 0
         for token in [*tokens, Pause(".")]:
             spoken = list(morae(token.kana, self.syllables.phones, number)) if isinstance(token, Word) else []
             mark = token.mark if isinstance(token, Pause) else "," if len(row) + len(spoken) > LONGEST_BREATH else ""
             if mark and row:
-                yield sounds(row), mark
+                yield Breath(sounds_of(row), mark)
                 row = []
             row += spoken
             number += isinstance(token, Word)
-
-
-Chunk = tuple[int, list[Sound]]
-"""Where in espeak's text the sounds of some words that are said as one begin, and these sounds."""
-
-
-def respell(breaths: Iterable[tuple[list[Sound], str]], words: Sequence[Word]) -> tuple[str, list[Chunk]]:
-    """What espeak is given, and its chunks: an accent phrase each, as `Word.joined` says."""
-    text, chunks = "", list[Chunk]()
-    for breath, mark in breaths:
-        parts: list[list[Sound]] = []
-        for number, word in groupby(breath, key=lambda sound: sound.word):
-            if not parts or not words[number].joined:
-                parts.append([])
-            parts[-1] += word
-        for part in parts:
-            chunks.append((len(text), part))
-            text += f"[[{''.join(sign for sound in part for sign in sound.phonemes)}]] "
-        text = f"{text.rstrip()}{FULL_STOP if mark == '.' else mark} "
-    return text.rstrip(), chunks
-
-
-def _timed(chunks: Sequence[Chunk], marks: Sequence[Mark], edges: NDArray[np.float64]) -> Iterator[tuple[float, Phone]]:
-    """Start and phone of every pause and sound, in order."""
-    for number, first, last in runs(marks, [start for start, _ in chunks]):
-        if number < 0:
-            yield edges[first], Phone(SILENCE)
-            continue
-        part = chunks[number][1]
-        sizes = np.cumsum([0, *(len(sound.phonemes) for sound in part)])
-        played = edges[[i for i in range(first, last) if marks[i].label]]
-        if len(played) == sizes[-1]:
-            starts = played[sizes[:-1]]
-        else:  # espeak plays two vowels as one here and there
-            starts = np.interp(sizes[:-1] / sizes[-1], np.linspace(0, 1, len(played) + 1), [*played, edges[last]])
-        for start, sound in zip(starts, part, strict=True):
-            yield start, Phone(sound.phone, word=sound.word, long=sound.long)

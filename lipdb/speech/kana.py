@@ -10,6 +10,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
+from lipdb.speech.sounds import Sound
+
 NASAL, STOP, LENGTH, DEVOICED = "ン", "ッ", "ー", "’"
 HIRAGANA = "ぁ-ゖゝゞ"
 KATAKANA = "ァ-ヺヽヾ"
@@ -43,15 +45,6 @@ class Mora(NamedTuple):
     core: str
     word: int
     devoiced: bool = False
-
-
-class Sound(NamedTuple):
-    """A phone of the word with index *word*, and the phonemes that espeak is given for it, each one label of what it plays."""
-
-    phone: str
-    word: int
-    long: bool
-    phonemes: tuple[str, ...]
 
 
 def to_katakana(text: str) -> str:
@@ -99,7 +92,7 @@ def _glided(phones: tuple[str, ...], small: str) -> tuple[str, ...]:
     return (*phones[:-1], "w" if small in "ァィゥェォ" else "y", vowel)
 
 
-def sounds(spoken: Iterable[Mora]) -> list[Sound]:
+def sounds_of(spoken: Iterable[Mora]) -> list[Sound]:
     """What the morae of one breath are said as."""
     row = list(spoken)
     found: list[Sound] = []
@@ -137,13 +130,13 @@ def _mora(mora: Mora, *, doubled: bool) -> Iterator[Sound]:
         doubled = False
     if mora.devoiced and mora.core in _DEVOICED and mora.onset:
         breath = _BREATHS.get(mora.onset[-1], "C" if mora.core == "i" else "h")
-        yield Sound(_DEVOICED[mora.core], mora.word, False, (breath,))
+        yield Sound(_DEVOICED[mora.core], mora.word, (breath,))
     else:
         yield _sound(mora.core, mora.word)
 
 
 def _sound(phone: str, word: int) -> Sound:
-    return Sound(phone, word, False, (_SOUNDS.get(phone, phone),))
+    return Sound(phone, word, (_SOUNDS.get(phone, phone),))
 
 
 def _longer(sound: Sound) -> tuple[str, ...]:
