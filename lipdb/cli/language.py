@@ -163,5 +163,58 @@ def check_language(options: Options, code: str, folder: Path | None, tidy: bool,
     if report.coverage and not as_json:
         click.echo(f"{code}: {report.coverage}", err=True)
     if report.errors:
-        raise DataError(f"{report.root / code}: {len(report.errors)} findings; mend them, or see docs/languages.md")
-    click.echo(f"{code}: all is well; {len(report.notes)} notes", err=True)
+        count = len(report.errors)
+        what = f"{_count(count, 'finding')}; mend {'it' if count == 1 else 'them'}, or see docs/languages.md"
+        raise DataError(f"{report.root / code}: {what}")
+    click.echo(f"{code}: all is well; {_count(len(report.notes), 'note')}", err=True)
+
+
+@language.command("reuse")
+@click.argument("code")
+@click.option("--from", "donors", multiple=True, default=("en",), show_default=True, help="A language to take pairs from; may be repeated.")
+@click.option(
+    "--corpus",
+    "corpora",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="A scan's .parquet, a .csv or .tsv of pairs, or a text; may be repeated. By default the language's sample sentences.",
+)
+@json_option
+@click.pass_obj
+def show_reuse(options: Options, code: str, donors: tuple[str, ...], corpora: tuple[Path, ...], as_json: bool) -> None:
+    """Show which pairs language CODE takes over from others, which only it has, and how much of real text each part carries.
+
+    Pairs with silence are counted apart. "inherited" are new pairs that begin with the curves of a coarser phone (kind_of).
+
+    \b
+    Examples:
+      lipdb language reuse cmn --from en
+      lipdb language reuse de --from en --from cmn --corpus scan.parquet --json
+    """
+    from lipdb.languages.reuse import reuse
+    from lipdb.languages.reuse_text import frequency_of
+
+    with options.open() as db:
+        for name in (code, *donors):
+            db.language(name)
+        texts = {}
+        for corpus in corpora or (None,):
+            text = frequency_of(db, code, corpus)
+            if text.frequency.counts:
+                texts[text.name] = text.frequency
+            for note in text.notes:
+                click.echo(f"lipdb: {text.name}: {note}", err=True)
+        found = reuse(db.records, code, tuple(dict.fromkeys(donors)), texts)
+    if as_json:
+        print_json(found.to_json())
+        return
+    print_listing([part.to_row() for part in found.parts], as_json=False)
+    if found.own:
+        click.echo(f"only {code} has: {' '.join(found.own)}", err=True)
+    if found.new.counts:
+        often = ", ".join(f"{left}-{right}" for left, right in found.new.pairs[:10])
+        click.echo(f"new pairs in the text, most frequent first: {often}{', …' if len(found.new) > 10 else ''}", err=True)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

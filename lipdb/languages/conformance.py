@@ -20,6 +20,7 @@ from lipdb.languages.report import Coverage, Remark, Report
 from lipdb.languages.rules import rules
 from lipdb.languages.sample import Hearing
 from lipdb.phones.phoneset import PhoneSet
+from lipdb.plugins import voices
 
 if TYPE_CHECKING:
     from lipdb.speech.voice import Voice
@@ -46,7 +47,7 @@ def check_language(code: str, folder: Path, *, base: Path) -> Report:
             hearing = Hearing(found, phoneset, _voice(found))
         except LipdbError as error:
             what = f"the voice can't be heard, so nothing that it says is checked: {error}"
-            remarks.append(Remark(f"{code}/language.tsv", (code,), "voice", what))
+            remarks.append(Remark(f"{code}/language.tsv", (code,), "speech" if found.row["speech"] not in voices() else "voice", what))
         else:
             remarks += hearing.remarks()
             coverage = hearing.coverage()
@@ -111,8 +112,6 @@ def _why(given: bytes) -> str:
 
 
 def _voice(found: LanguageFolder) -> Voice:
-    from lipdb.plugins import voices
-
     row, makers = found.rows("language")[found.code,], voices()
     if row["speech"] not in makers:
         raise PhonesetError(f"no voice plug-in {row['speech']!r}; there are {', '.join(sorted(makers))}")

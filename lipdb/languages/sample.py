@@ -133,7 +133,9 @@ class Hearing:
         return found
 
     def _common(self, symbol: str) -> tuple[str, ...]:
-        return tuple(c for part in self.parts[symbol] for c in self.phoneset.mapping(part).common)
+        # An alias may name a phone that there is not; another finding says so.
+        found = [self.phoneset.mappings.find(part, {}) for part in self.parts[symbol]]
+        return tuple(c for mapped in found if mapped for c in mapped.common)
 
     def coverage(self) -> Coverage | None:
         """The pairs that the language can have, those that the sample has, and where their curves come from.
