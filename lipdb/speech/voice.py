@@ -59,6 +59,10 @@ class Voice(Protocol):
         """The notation of its symbols."""
 
     @property
+    def script(self) -> str:
+        """The script that it reads (ISO 15924)."""
+
+    @property
     def version(self) -> str:
         """Everything but the text that decides the result: programs with their versions, settings."""
 
