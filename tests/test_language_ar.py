@@ -62,6 +62,10 @@ def test_every_vowel_sign_is_said_and_no_silent_letter_is(db: lipdb.Database, wo
     assert " ".join(phones(db, "ar", word.replace("\u064e\u0651", "\u0651\u064e"))) == expected
 
 
+def test_words_are_shown_as_they_were_written(db: lipdb.Database) -> None:
+    assert db.say("شَكَرُوا أُمَّهُمْ بِالْبَيْتِ.", language="ar").schedule.words == ("شَكَرُوا", "أُمَّهُمْ", "بِالْبَيْتِ")
+
+
 def test_a_sentence_speaks_and_its_lips_close(db: lipdb.Database) -> None:
     line = check_speaks(db, "ar", "بَابُ الْمَدِينَةِ كَبِيرٌ، هَلْ تَعْرِفُ؟ مرحبا بكم!")
     assert line.schedule.words == ("بَابُ", "الْمَدِينَةِ", "كَبِيرٌ", "هَلْ", "تَعْرِفُ", "مرحبا", "بكم")

@@ -49,6 +49,11 @@ def test_a_sentence_speaks_and_its_lips_close(db: lipdb.Database) -> None:
     assert line.schedule.words == ("Мама", "мыла", "раму", "а", "папа", "пел", "бабушка", "ещё", "спала")
 
 
+def test_e_without_its_dots_is_read_as_the_word_needs_and_shown_as_it_was_written(db: lipdb.Database) -> None:
+    assert phones(db, "ru", "Петр, идем еще!") == phones(db, "ru", "Пётр, идём ещё!")
+    assert db.say("Петр, идем еще!", language="ru").schedule.words == ("Петр", "идем", "еще")
+
+
 def test_a_full_stop_ends_a_sentence_in_front_of_a_small_letter_but_no_abbreviation(db: lipdb.Database) -> None:
     def pauses(text: str) -> int:
         return sum(phone.silent for phone in db.say(text, language="ru").schedule.phones)

@@ -99,10 +99,10 @@ class EspeakVoice:
 
     def speak(self, text: str) -> Spoken:
         """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""
-        text, notes = self._checked(text)
-        utterance = libespeak.speak(text, self.name)
+        written, spelt, notes = self._checked(text)
+        utterance = libespeak.speak(spelt, self.name)
         marks = without_short_pauses(utterance.marks, utterance.sound.rate)
-        words, word_of = words_of(text, marks)
+        words, word_of = words_of(spelt, marks, written)
         phones = self._phones([mark.label for mark in marks], word_of)
         schedule = lay_out(mended_edges(marks, utterance.sound), phones, language=self.language, notation=NOTATION, words=words)
         return Spoken(schedule, utterance.sound, notes)
@@ -113,23 +113,24 @@ class EspeakVoice:
 
     def read(self, text: str) -> Reading:
         """As `phrases`, with the number of words that are read by the rules of another language."""
-        text, _ = self._checked(text)
+        _, spelt, _ = self._checked(text)
         phrases: list[Phrase] = []
         switches = 0
-        for phrase in phonemes.phrases(text, self.name):
+        for phrase in phonemes.phrases(spelt, self.name):
             bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
             switches += found
             if words := [symbols for word in bare.split() if (symbols := _symbols(word, self.symbols))]:
                 phrases.append(tuple(words))
         return Reading(tuple(phrases), (switches + 1) // 2)
 
-    def _checked(self, text: str) -> tuple[str, tuple[str, ...]]:
+    def _checked(self, text: str) -> tuple[str, str, tuple[str, ...]]:
+        """*text* cleaned, the same as it is spelt for espeak, and notes of what was left out."""
         cleaned, notes = clean(text)
         check_script(cleaned, self.script, language=self.language)
         # Most lines have a full stop only at their end: looking for it is quicker than the expression.
         ended = SENTENCE_END.sub(FULL_STOP, cleaned) if "." in cleaned[:-1] else cleaned
         spelt = respelt(ended, self.readings) if self.readings else ended
-        return spelt_for_espeak(spelt) if self.script == "Arab" else spelt, notes
+        return ended, spelt_for_espeak(spelt) if self.script == "Arab" else spelt, notes
 
     def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
         """The phones of *labels* (empty: a pause), of which each belongs to a word."""
@@ -185,8 +186,10 @@ def undoubled(symbol: str) -> str:
     return symbol[:half] if symbol[:half] == symbol[half:] else symbol
 
 
-def words_of(text: str, marks: tuple[Mark, ...]) -> tuple[tuple[str, ...], list[int]]:
+def words_of(text: str, marks: tuple[Mark, ...], written: str = "") -> tuple[tuple[str, ...], list[int]]:
     """The written words of *text*, and for every mark the index of its word, -1 for pauses.
+
+    The words are those of *written*, if that has as many: the same text as a person spelt it.
 
     A written word is what stands between spaces, without punctuation at its edges; espeak's word events point into it,
     several of them into a number. Written words that are said as one ("of the") are one word.
@@ -196,10 +199,12 @@ def words_of(text: str, marks: tuple[Mark, ...]) -> tuple[tuple[str, ...], list[
     # Within numbers the positions jump back and forth, so none may be before the last.
     positions = np.maximum.accumulate([bisect_right(starts, max(m.position, 0)) - 1 for m in marks])
     sounding = sorted({int(t) for t, m in zip(positions, marks, strict=True) if m.label})
+    shown = [m.span() for m in WRITTEN.finditer(written)]
+    text, shown = (written, shown) if len(shown) == len(tokens) else (text, tokens)
     words = []
     for token, following in zip(sounding, [*sounding[1:], len(tokens)], strict=True):
-        written = text[tokens[token][0] : tokens[following - 1][1]]
-        words.append(EDGE.sub("", written) or written)
+        word = text[shown[token][0] : shown[following - 1][1]]
+        words.append(EDGE.sub("", word) or word)
     index = {token: i for i, token in enumerate(sounding)}
     return tuple(words), [index[int(t)] if m.label else -1 for t, m in zip(positions, marks, strict=True)]
 
