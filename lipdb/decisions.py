@@ -64,6 +64,7 @@ class PairUse:
             "count": self.count,
             "origin": sorted({found.curve.origin for found in moving}),
             "layer": sorted({found.layer for found in moving}),
+            "inherited": sorted({"-".join(found.inherited) for found in moving if found.inherited}),
             "poses": [pose for pose, found in self.curves.items() if found.curve.keys],
             "missing": self.missing,
         }
@@ -101,7 +102,7 @@ class Cause:
             "pair": [f"{left}-{right}" for left, right, _, _ in curves],
             "curve": [f"{weight:.3f}" for _, _, weight, _ in curves],
             "origin": [found.curve.origin for *_, found in curves],
-            "layer": [found.layer for *_, found in curves],
+            "layer": [found.where for *_, found in curves],
         }
 
     def to_json(self) -> dict[str, Any]:
@@ -113,7 +114,13 @@ class Cause:
             "stage": self.stage,
             "yields_to": list(self.yields_to),
             "curves": [
-                {"weight": weight, **found.curve.row((left, right, self.pose)), "layer": found.layer, "reason": found.reason}
+                {
+                    "weight": weight,
+                    **found.curve.row((left, right, self.pose)),
+                    "layer": found.layer,
+                    "reason": found.reason,
+                    "inherited": "-".join(found.inherited),
+                }
                 for left, right, weight, found in self.curves
             ],
         }

@@ -18,26 +18,32 @@ LANGUAGE = click.option("-l", "--language", default="en", show_default=True, hel
 @LANGUAGE
 @click.option("-c", "--character", help="Show the phones as this character says them.")
 @click.option("--ipa", is_flag=True, help="Read IPA segments from standard input, one a line, and propose common phones for each.")
+@click.option("--common", is_flag=True, help="List the common phones: who uses each, and what its pairs cost.")
 @json_option
 @click.pass_obj
-def phones(options: Options, /, text: str | None, language: str, character: str | None, ipa: bool, as_json: bool) -> None:
+def phones(options: Options, /, text: str | None, language: str, character: str | None, ipa: bool, common: bool, as_json: bool) -> None:
     """Show the phones of TEXT, the common phones they map to, and the layer that each mapping comes from.
 
     With --ipa: what each IPA segment on standard input maps to, in any language, how sure that is, and why. Lines that are no
     IPA are listed too, and end with exit code 5.
+
+    With --common: the languages that use each common phone, its pairs with their phones, how many of them have curves of their
+    own, and how many inherit those of the coarser phone that it was split from (kind_of).
 
     \b
     Examples:
       lipdb phones "你好" --language cmn
       printf 'ʁ\nt͡ɕʰ\nkʷ\n' | lipdb phones --ipa --json
     """
+    if [text is not None, ipa, common].count(True) != 1:
+        raise click.UsageError("give a TEXT, or --ipa (IPA segments on standard input), or --common, and only one of them")
     if ipa:
-        if text is not None:
-            raise click.UsageError("--ipa reads standard input, so it takes no TEXT")
         _propose(options, as_json)
         return
-    if text is None:
-        raise click.UsageError("give a TEXT, or --ipa for IPA segments on standard input")
+    if common:
+        _list_common(options, as_json)
+        return
+    assert text is not None
     with options.open() as db:
         if character is not None:
             db.character(character)
@@ -57,6 +63,14 @@ def phones(options: Options, /, text: str | None, language: str, character: str 
         print_listing(rows, as_json=as_json)
         for note in line.notes:
             click.echo(f"lipdb: {note}", err=True)
+
+
+def _list_common(options: Options, as_json: bool) -> None:
+    """Print the common phones."""
+    from lipdb.languages.inventory import inventory
+
+    with options.open() as db:
+        print_listing([phone.to_row() for phone in inventory(db.records)], as_json=as_json)
 
 
 def _propose(options: Options, as_json: bool) -> None:

@@ -2,7 +2,8 @@
 
 Order: line, character, language, common; for a pose set of its own, facefx's curves through links; generated from the
 two phones' targets; generated from the targets of the nearest phone by articulation. An explicit empty curve means
-zero and ends the search.
+zero and ends the search. In each layer a pair of refined phones (`Kinds`) is asked for first and then the pairs that it
+was split from, so whoever draws bmp draws for all kinds of bmp that nobody drew more closely in that layer.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from lipdb.curves.curve import Curve, CurveKey, curve_from_row
 from lipdb.curves.generate import Targets, generated, source_of
 from lipdb.curves.through import Link, carried, link_from_row
 from lipdb.errors import CurveError, PhonesetError
+from lipdb.phones.refined import Kinds
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
@@ -30,12 +32,21 @@ AT_REST = Curve((), origin="generated")
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The winning *curve* of a pair and pose, the *layer* and *pose_set* that it stands in, and in words why it won."""
+    """The winning *curve* of a pair and pose, the *layer* and *pose_set* that it stands in, and in words why it won.
+
+    *inherited* names the pair of coarser phones whose curve it is, such as ``("bmp", "ah")``; empty for a curve of its own.
+    """
 
     curve: Curve
     layer: str
     pose_set: str
     reason: str
+    inherited: tuple[str, ...] = ()
+
+    @property
+    def where(self) -> str:
+        """The layer, and the coarser pair that the curve is inherited from, if it is."""
+        return f"{self.layer} (from {'-'.join(self.inherited)})" if self.inherited else self.layer
 
     @property
     def fallback(self) -> bool:
@@ -78,6 +89,7 @@ class CurveBook:
     ) -> None:
         self.pose_set, self.poses = pose_set, poses
         self._layers, self._targets, self._common, self._base = layers, targets, common, base
+        self._kinds = Kinds.from_common(common)
         self._links = {pose: tuple(link for link in links if link.shape == pose) for pose in poses}
         self._own_pairs = {(left, right) for layer in layers for left, right, _ in layer.curves} if base else set()
         self._found: dict[CurveKey, Found] = {}
@@ -152,24 +164,37 @@ class CurveBook:
         """The most specific layer's curve. For a set that has links, a pair's own curves win as a whole."""
         if key[:2] == (SILENCE, SILENCE):
             return Found(AT_REST, "common", self.pose_set, "between silence and silence every pose is at rest")
+        pair, pose = key[:2], key[2]
+        pairs = (pair, *self._kinds.coarser_pairs(*pair))
         for layer in self._layers:
-            if entry := layer.curves.get(key):
-                curve = entry if isinstance(entry, Curve) else curve_from_row(entry)
-                return Found(curve, layer.name, self.pose_set, f"{curve.origin} curve" if curve.keys else f"{curve.origin} as zero")
-        if key[:2] in self._own_pairs:
-            layer = next(layer for layer in self._layers if any(other[:2] == key[:2] for other in layer.curves))
-            return Found(AT_REST, layer.name, self.pose_set, "the pair has curves of its own, and they leave this pose at rest")
+            for own in pairs:
+                if entry := layer.curves.get((*own, pose)):
+                    curve = entry if isinstance(entry, Curve) else curve_from_row(entry)
+                    what = f"{curve.origin} curve" if curve.keys else f"{curve.origin} as zero"
+                    return self._found_at(curve, layer.name, what, own, pair)
+        for own in pairs:
+            if own in self._own_pairs:
+                layer = next(layer for layer in self._layers if any(other[:2] == own for other in layer.curves))
+                what = "the pair has curves of its own, and they leave this pose at rest"
+                return self._found_at(AT_REST, layer.name, what, own, pair)
         return None
+
+    def _found_at(self, curve: Curve, layer: str, reason: str, own: tuple[str, str], pair: tuple[str, str]) -> Found:
+        """What stands in a table for *own*, which may be coarser than the *pair* that was asked for."""
+        if own == pair:
+            return Found(curve, layer, self.pose_set, reason)
+        return Found(curve, layer, self.pose_set, f"inherited from {'-'.join(own)}: {reason}", own)
 
     def _elsewhere(self, key: CurveKey) -> Found:
         """A curve through links or from targets, for a pair that no table of this pose set has."""
         via = self._via_links(key)
         if via and not via.fallback:
             return via
-        left, right, pose = key
-        if {left, right} <= set(self._targets.phones):
-            reason = f"no table has it; generated from the targets of {left} and {right}"
-            return Found(self._generate(left, right)[pose], GENERATED, self.pose_set, reason)
+        pair, pose = key[:2], key[2]
+        for own in (pair, *self._kinds.coarser_pairs(*pair)):
+            if set(own) <= set(self._targets.phones):
+                reason = f"no table has it; generated from the targets of {own[0]} and {own[1]}"
+                return Found(self._generate(*own)[pose], GENERATED, self.pose_set, reason, () if own == pair else own)
         return via or self._nearest(key)
 
     def _via_links(self, key: CurveKey) -> Found | None:
@@ -181,8 +206,9 @@ class CurveBook:
         # The layer to name is that of the least trusted curve that takes part.
         parts = [found for found in sources.values() if found.curve.keys] or list(sources.values())
         worst = max(parts, key=lambda found: trust(found.layer), default=None)
-        layer, reason = (worst.layer, worst.reason) if worst else ("common", "no link leads to this pose, so it is at rest")
-        return Found(curve, f"{layer} via {SHARED}", self.pose_set, reason)
+        if worst is None:
+            return Found(curve, f"common via {SHARED}", self.pose_set, "no link leads to this pose, so it is at rest")
+        return Found(curve, f"{worst.layer} via {SHARED}", self.pose_set, worst.reason, worst.inherited)
 
     def _nearest(self, key: CurveKey) -> Found:
         left, right, pose = key
@@ -199,7 +225,8 @@ class CurveBook:
                 f"pose set {self.pose_set!r} has nothing to make curves from; add targets/{self.pose_set}.tsv and "
                 f"timing/{self.pose_set}.tsv, or links/{SHARED}/{self.pose_set}.tsv"
             )
-        return phone if phone in self._targets.phones else stand_in(phone, self._targets.phones, self._common)
+        known = next((coarser for coarser in self._kinds.line(phone) if coarser in self._targets.phones), "")
+        return known or stand_in(phone, self._targets.phones, self._common)
 
     def _generate(self, left: str, right: str) -> dict[str, Curve]:
         if (left, right) not in self._made:
