@@ -7,6 +7,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { floats, Track, type FaceData } from "./data";
+import { Morph } from "./morph";
 
 /** Degrees around the head at which a view stands; the first one can be turned by hand. */
 export const VIEWS: Record<string, number[]> = { front: [0], "¾": [38], side: [90], all: [0, 38, 90] };
@@ -14,6 +15,29 @@ const FIELD = 24;
 
 /** How much more than what moves is shown. */
 const ROOM = 0.66;
+
+/** What a slow machine may leave of the picture's width and height, so that the mouth keeps moving. */
+const COARSEST = 0.3;
+const SLOW = 45; // milliseconds a frame: less than 22 a second
+const GAP = 1500; // a longer wait is no slow frame, but none
+
+/** Whether drawing keeps up, judged on the middle of eight frames in a row. */
+class Pace {
+  private last = 0;
+  private waits: number[] = [];
+
+  tooSlow(): boolean {
+    const now = performance.now();
+    const wait = now - this.last;
+    this.last = now;
+    if (wait > GAP) this.waits = [];
+    else this.waits.push(wait);
+    if (this.waits.length < 8) return false;
+    const middle = [...this.waits].sort((a, b) => a - b)[4];
+    this.waits = [];
+    return middle > SLOW;
+  }
+}
 
 type MeshFace = Extract<FaceData, { kind: "mesh" }>;
 
@@ -25,13 +49,14 @@ export class MeshView {
   private readonly cameras = VIEWS.all.map(() => new PerspectiveCamera(FIELD, 1, 0.01, 1000));
   private readonly controls: OrbitControls;
   private model: Group | null = null;
-  private moving: Mesh[] = [];
-  private columns: number[][] = [];
+  private moving: { part: Mesh; morph: Morph }[] = [];
   private url = "";
   private angles = VIEWS.front;
   private centre = new Vector3();
   private radius = 1;
   private track = new Track([], new Float32Array(0), 60);
+  private pace = new Pace();
+  private sharpness = 1;
   dirty = true;
 
   constructor(private readonly failed: (why: string) => void) {
@@ -69,7 +94,7 @@ export class MeshView {
       this.scene.add(this.model);
       this.moving = [];
       this.model.traverse((part) => {
-        if (part instanceof Mesh && part.morphTargetInfluences) this.moving.push(part);
+        if (part instanceof Mesh && part.morphTargetInfluences) this.moving.push({ part, morph: new Morph(part) });
       });
       this.connect();
       this.frame();
@@ -78,11 +103,8 @@ export class MeshView {
     }
   }
 
-  /** Which weight moves which morph target of which part. */
   private connect(): void {
-    this.columns = this.moving.map((part) =>
-      this.track.names.map((name) => part.morphTargetDictionary?.[name] ?? -1),
-    );
+    this.moving.forEach(({ morph }) => morph.connect(this.track.names));
     this.dirty = true;
   }
 
@@ -92,7 +114,10 @@ export class MeshView {
     const whole = new Box3().setFromObject(this.model);
     const moved = new Box3();
     this.model.updateMatrixWorld(true);
-    for (const part of this.moving) expandByMoved(moved, part);
+    const point = new Vector3();
+    for (const { part, morph } of this.moving) {
+      for (const at of morph.moved()) moved.expandByPoint(point.fromArray(at).applyMatrix4(part.matrixWorld));
+    }
     const size = whole.getSize(new Vector3()).length() / 2;
     (moved.isEmpty() ? whole : moved).getCenter(this.centre);
     this.radius = moved.isEmpty() ? size : Math.min(moved.getSize(new Vector3()).length() * ROOM, size);
@@ -116,7 +141,7 @@ export class MeshView {
 
   resize(width: number, height: number): void {
     const size = this.canvas;
-    const ratio = Math.min(devicePixelRatio, 2);
+    const ratio = Math.min(devicePixelRatio, 2) * this.sharpness;
     if (size.width === Math.round(width * ratio) && size.height === Math.round(height * ratio)) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
@@ -124,13 +149,12 @@ export class MeshView {
   }
 
   draw(time: number): void {
+    if (this.pace.tooSlow() && this.sharpness > COARSEST) {
+      this.sharpness = Math.max(this.sharpness * 0.7, COARSEST);
+      this.resize(this.canvas.clientWidth, this.canvas.clientHeight);
+    }
     this.track.at(time, this.weights);
-    this.moving.forEach((part, m) => {
-      const influences = part.morphTargetInfluences ?? [];
-      this.columns[m].forEach((target, k) => {
-        if (target >= 0) influences[target] = this.weights[k];
-      });
-    });
+    this.moving.forEach(({ morph }) => morph.apply(this.weights));
     const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const part = width / this.angles.length;
     this.renderer.setScissorTest(true);
@@ -148,23 +172,12 @@ export class MeshView {
   /** The weight of every shape as it was drawn last, and how many of them move something. */
   get state(): { shapes: Record<string, number>; moving: number } {
     const shapes = Object.fromEntries(this.track.names.map((name, k) => [name, this.weights[k]]));
-    return { shapes, moving: new Set(this.columns.flatMap((row) => row.flatMap((target, k) => (target >= 0 ? [k] : [])))).size };
+    return { shapes, moving: this.track.names.filter((_, k) => this.moving.some(({ morph }) => morph.moves(k))).length };
   }
 
   dispose(): void {
     this.controls.dispose();
     this.renderer.dispose();
     this.url = "";
-  }
-}
-
-/** Take in every vertex that a morph target of `part` moves. */
-function expandByMoved(box: Box3, part: Mesh): void {
-  const rest = part.geometry.attributes.position;
-  const targets = part.geometry.morphAttributes.position ?? [];
-  const point = new Vector3();
-  for (let k = 0; k < rest.count; k++) {
-    const moves = targets.some((target) => Math.abs(target.getX(k)) + Math.abs(target.getY(k)) + Math.abs(target.getZ(k)) > 1e-4);
-    if (moves) box.expandByPoint(point.fromBufferAttribute(rest, k).applyMatrix4(part.matrixWorld));
   }
 }

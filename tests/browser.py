@@ -1,0 +1,115 @@
+"""A dashboard of its own and a real Chromium, for tests that go the ways people go.
+
+`app` is one server a test file, with a new database; `page` one tab a test file, 1280 x 1000; `chromium` opens more. Software
+draws the faces here, so the tab is kept: to load a page anew costs seconds.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.request import urlopen
+
+import pytest
+
+CHROMIUM = os.environ.get("LIPDB_CHROMIUM") or next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
+FLAGS = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--autoplay-policy=no-user-gesture-required",
+    "--mute-audio",
+]
+PATIENCE = 60_000
+"""Milliseconds to wait for what a slow machine draws in software."""
+
+
+@dataclass(frozen=True)
+class Dashboard:
+    """A running dashboard: where it is, and its database."""
+
+    url: str
+    database: Path
+
+    def lipdb(self, *arguments: str) -> str:
+        """What `lipdb` prints on this dashboard's database."""
+        command = [sys.executable, "-m", "lipdb", "--db", str(self.database), *arguments]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dashboard]:
+    folder = tmp_path_factory.mktemp("dashboard")
+    port, database = free_port(), folder / "lipdb.db"
+    environment = {**os.environ, "LIPDB_HOME": str(folder / "home"), "LIPDB_CACHE": str(folder / "cache")}
+    command = [sys.executable, "-m", "lipdb", "--db", str(database), "dashboard", "--port", str(port), "--no-browser"]
+    with (folder / "log").open("wb") as log, subprocess.Popen(command, env=environment, stdout=log, stderr=log) as server:
+        try:
+            url = f"http://localhost:{port}"
+            for _ in range(600):
+                if server.poll() is not None or _answers(f"{url}/_stcore/health"):
+                    break
+                time.sleep(0.1)
+            assert server.poll() is None, (folder / "log").read_text()
+            yield Dashboard(url, database)
+        finally:
+            server.terminate()
+
+
+def _answers(url: str) -> bool:
+    try:
+        with urlopen(url, timeout=1) as answer:
+            return answer.status == 200
+    except OSError:
+        return False
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    if not CHROMIUM:
+        assert not os.environ.get("LIPDB_REQUIRE_BROWSER"), "there is no Chromium: apt-get install chromium"
+        pytest.skip("there is no Chromium (apt-get install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Any) -> Iterator[Any]:
+    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
+    context.set_default_timeout(PATIENCE)
+    yield context.new_page()
+    context.close()
+
+
+def settled(page: Any) -> None:
+    """Wait until Streamlit has run the page to its end."""
+    page.wait_for_function(
+        "() => !document.querySelector('[data-testid=stStatusWidget]') && document.querySelector('[data-testid=stMain]')"
+    )
+
+
+def stage_state(page: Any) -> dict[str, Any]:
+    """What the player shows now: time, poses, shapes of each face."""
+    state: dict[str, Any] = page.locator(".stage").evaluate("stage => stage.lipdb.state")
+    return state
