@@ -46,6 +46,13 @@ def test_words_look_as_they_are_said(db: lipdb.Database, word: str, expected: st
     assert common(db, "hi", word) == expected
 
 
+def test_f_and_z_without_their_dots_are_read_as_the_word_needs(db: lipdb.Database) -> None:
+    assert common(db, "hi", "सिर्फ फिल्म") == common(db, "hi", "सिर्फ़ फ़िल्म")
+    assert "bmp" not in common(db, "hi", "साफ दफ्तर").split()
+    assert common(db, "hi", "फिर फल").split().count("bmp") == 2
+    assert db.say("ज्यादा साफ", language="hi").schedule.words == ("ज्यादा", "साफ")
+
+
 def test_a_sentence_speaks_and_its_lips_close(db: lipdb.Database) -> None:
     line = check_speaks(db, "hi", "मेरी माँ बाज़ार गई हैं। पापा भी आम लाएँगे!")
     assert line.schedule.words == ("मेरी", "माँ", "बाज़ार", "गई", "हैं", "पापा", "भी", "आम", "लाएँगे")
