@@ -146,3 +146,14 @@ def test_a_mark_that_nothing_is_known_of_asks_for_review():
     assert found.common == ("d",)
     assert found.review
     assert found.confidence < propose("t").confidence
+
+
+def test_what_is_heard_and_not_seen_is_named():
+    assert propose("ãː˥").reason.endswith("(nasality, length, tone: not seen)")
+    assert "breath" in propose("tʰ").reason
+
+
+def test_a_bar_is_a_click_that_may_be_a_pause():
+    assert propose("|").common == propose("ǀ").common
+    assert propose("|").review
+    assert not propose("ǁ").review

@@ -5,18 +5,19 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import groupby
 from types import MappingProxyType
 from typing import Any
 
 from lipdb.curated.tsv import Key, Row
 from lipdb.phones.articulation import Classified, classify
 from lipdb.phones.second_opinion import opinions
-from lipdb.phones.segments import read_segment
+from lipdb.phones.segments import Segment, read_segment
 
 _NO_ROWS: Mapping[Key, Row] = MappingProxyType({})
 UNSURE = 0.6
 """Below this confidence a person should look, whatever the second opinion says."""
-_DISAGREEMENT, _STRANGE_MARK = 0.8, 0.9
+_DISAGREEMENT, _DOUBT = 0.8, 0.9
 """What each of them leaves of the confidence."""
 
 
@@ -61,26 +62,31 @@ def propose(ipa: str, rows: Mapping[Key, Row] = _NO_ROWS) -> Proposal:
         return Proposal(ipa, (), 0.0, f"no IPA: {signs!r} stands in no chart", review=True)
     if found is None:
         return Proposal(ipa, (), 0.0, "no segment: there is no vowel and no consonant in it", review=True)
-    return _judged(ipa, found, read.strange)
+    return _judged(ipa, found, read)
 
 
-def _judged(ipa: str, found: Classified, strange: str) -> Proposal:
+def _judged(ipa: str, found: Classified, read: Segment) -> Proposal:
     """What the rules *found*, with the second opinion on every part of it."""
-    confidence, notes = found.confidence, [found.reason]
+    confidence, notes = found.confidence, list[str]()
     for verdict in found.verdicts:
         ranked = opinions(verdict.text) if verdict.text else ()
         if ranked and ranked[0].common != verdict.common:
             confidence *= _DISAGREEMENT
             notes.append(f"review: by PanPhon's features {verdict.text} is nearest to {ranked[0].common}")
-    if strange:
-        confidence *= _STRANGE_MARK
-        notes.append(f"review: nothing is known of {' '.join(f'U+{ord(sign):04X}' for sign in strange)}")
-    review = len(notes) > 1 or confidence < UNSURE
-    return Proposal(ipa, found.common, round(confidence, 3), "; ".join(notes), _second(found), review)
+    if read.strange:
+        confidence *= _DOUBT
+        notes.append(f"review: nothing is known of {' '.join(f'U+{ord(sign):04X}' for sign in read.strange)}")
+    if bar := next((sign for sign in ipa if sign in "|‖"), ""):
+        confidence *= _DOUBT
+        notes.append(f"review: {bar} is read as a click; between phrases it would be a pause")
+    unseen = [f"({', '.join(read.unseen)}: not seen)"] if read.unseen else []
+    reason = "; ".join([" ".join([found.reason, *unseen]), *notes])
+    return Proposal(ipa, found.common, round(confidence, 3), reason, _second(found), bool(notes) or confidence < UNSURE)
 
 
 def _second(found: Classified) -> tuple[str, ...]:
     """The answer with its least certain part replaced by what PanPhon finds nearest beside it; nothing when it can't say."""
     weakest = min((verdict for verdict in found.verdicts if verdict.text), key=lambda verdict: verdict.confidence)
     other = next((opinion.common for opinion in opinions(weakest.text) if opinion.common != weakest.common), "")
-    return tuple(other if verdict is weakest else verdict.common for verdict in found.verdicts) if other else ()
+    row = [other if verdict is weakest else verdict.common for verdict in found.verdicts]
+    return tuple(common for common, _ in groupby(row)) if other else ()

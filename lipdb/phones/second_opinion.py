@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lipdb.phones.segments import TIES, spelled, without_diacritics
+from lipdb.phones.segments import RHOTIC, TIES, spelled, without_diacritics
 
 Array = NDArray[np.float64]
 _VALUES = {"+": 1.0, "0": 0.0, "-": -1.0}
@@ -77,9 +77,18 @@ def segments() -> tuple[str, ...]:
     return tuple(_table())
 
 
+# Lips that round beside the letter's own place (judged apart), and vowels that carry no syllable.
+_LEFT_OUT = dict.fromkeys(map(ord, "ʷᶣ\u032b\u032f\u0311"))
+
+
 def _features(text: str) -> Array | None:
-    """The features of *text* at its start and end, shape (2, F); None when PanPhon does not know it."""
-    plain = spelled(text)
+    """The features of *text* at its start and end, shape (2, F); None when PanPhon does not know it.
+
+    Of vowels coloured by r it knows only what is around them, so it is not asked.
+    """
+    plain = spelled(text).translate(_LEFT_OUT)
+    if RHOTIC in plain:
+        return None
     letters = without_diacritics(plain)
     bare = letters.translate(dict.fromkeys(map(ord, TIES)))
     for whole in (plain, letters, TIES[0].join(bare)):

@@ -31,12 +31,19 @@ _TONE = re.compile(r"(?<=.)[0-9⁰¹²³⁴⁵⁶⁷⁸⁹]+$")
 
 TIES = "\u0361\u035c"
 RHOTIC = "˞"
-_UNSEEN = frozenset(
-    "ːˑˈˌ.˥˦˧˨˩꜒꜓꜔꜕꜖ꜛꜜ↑↓↗↘ʼˀˤˠʲ"
-    # Voice, breath, creak, nasality, tongue root, tongue blade, tension, shortness, release, tone.
-    "\u0325\u030a\u032c\u0324\u0330\u0303\u0328\u0318\u0319\u033a\u033b\u0348\u0349\u034a\u034b\u034c\u0306\u031a\u0334\u0347\u034e"
-    "\u030b\u0301\u0304\u0300\u030f\u030c\u0302\u1dc4\u1dc5\u1dc6\u1dc7\u1dc8\u1dc9"
-)
+# What is heard and not seen, and the signs for it.
+_UNSEEN = {
+    "length": "ːˑ\u0306",
+    "stress": "ˈˌ.",
+    "tone": "˥˦˧˨˩꜒꜓꜔꜕꜖ꜛꜜ↑↓↗↘\u030b\u0301\u0304\u0300\u030f\u030c\u0302\u1dc4\u1dc5\u1dc6\u1dc7\u1dc8\u1dc9",
+    "voice": "\u0325\u030a\u032c\u0330\u0324",
+    "the glottis": "ʼˀ\u0348\u0349",
+    "nasality": "\u0303\u0328\u034a\u034b\u034c",
+    "tongue root and blade": "ˤˠʲ\u0318\u0319\u033a\u033b\u0334\u0347\u034e",
+    "release": "\u031a",
+}
+_UNSEEN_SIGNS = {sign: what for what, signs in _UNSEEN.items() for sign in signs}
+_ACCOMPANIES = "breath, onset or release"
 _STEP = 0.06
 """How far a mark of height moves a vowel: less than half a row of the chart, so no mark alone makes another vowel of it."""
 
@@ -92,12 +99,12 @@ _MARKS: dict[str, Callable[[Letter], Letter]] = {
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """An IPA segment: its *letters*, the marks that show nothing (*unseen*), marks that nothing is known of (*strange*),
+    """An IPA segment: its *letters*, what its marks say that does not show (*unseen*), marks that nothing is known of (*strange*),
     and signs that are no IPA at all (*foreign*).
     """
 
     letters: tuple[Letter, ...]
-    unseen: str = ""
+    unseen: tuple[str, ...] = ()
     strange: str = ""
     foreign: str = ""
 
@@ -119,7 +126,8 @@ def read_segment(text: str) -> Segment:
     is seen. What labialises a consonant stays, and so does what moves a vowel.
     """
     letters: list[Letter] = []
-    unseen, strange, foreign = "", "", ""
+    unseen: list[str] = []
+    strange, foreign = "", ""
     for sign in spelled(text):
         if sign in LETTERS:
             letters.append(replace(LETTERS[sign], text=sign))
@@ -129,9 +137,9 @@ def read_segment(text: str) -> Segment:
         elif (small := _letter_made_small(sign)) is not None:
             follows = _is_heard(letters[-1], small) if letters else sign == "ʷ"
             letters += [replace(small, glide=small.vowel, text=sign)] if follows else []
-            unseen += "" if follows else sign
-        elif sign in _UNSEEN:
-            unseen += sign
+            unseen += [] if follows else [_UNSEEN_SIGNS.get(sign, _ACCOMPANIES)]
+        elif sign in _UNSEEN_SIGNS:
+            unseen.append(_UNSEEN_SIGNS[sign])
             if letters:
                 letters[-1] = replace(letters[-1], text=letters[-1].text + sign)
         elif unicodedata.combining(sign) or unicodedata.category(sign) in ("Lm", "Sk"):
@@ -139,7 +147,7 @@ def read_segment(text: str) -> Segment:
         else:
             foreign += sign
     alone = "".join(letter.text for letter in letters) == "ʷ"
-    return Segment(() if alone else tuple(letters), unseen, strange, foreign)
+    return Segment(() if alone else tuple(letters), tuple(dict.fromkeys(unseen)), strange, foreign)
 
 
 def _letter_made_small(sign: str) -> Letter | None:
