@@ -5,13 +5,12 @@ import shutil
 import sys
 
 import pytest
+from shared_tables import SHIPPED, copy_shared_tables
 
 from lipdb.cli import main
 from lipdb.errors import InputError, PhonesetError
 from lipdb.languages.conformance import check_language, tidy_language
-from lipdb.paths import data_dir
 
-SHIPPED = data_dir("phonesets")
 OWN = "authored\tlipdb\tApache-2.0\tanna\t2026-11-22T00:00:00Z\t"
 # A language of twelve phones in a notation of its own, which espeak's Hawaiian voice speaks.
 PHONES = """
@@ -55,13 +54,7 @@ GOOD = {
 @pytest.fixture(scope="session")
 def base(tmp_path_factory):
     """The shared tables that every language leans on, without curves and other languages, so that reading is quick."""
-    folder = tmp_path_factory.mktemp("base")
-    for file in (*SHIPPED.glob("*.tsv"), *SHIPPED.glob("*/language.tsv")):
-        if file.name != "shape_names.tsv":
-            copy = folder / file.relative_to(SHIPPED)
-            copy.parent.mkdir(exist_ok=True)
-            shutil.copy(file, copy)
-    return folder
+    return copy_shared_tables(tmp_path_factory.mktemp("base"))
 
 
 @pytest.fixture

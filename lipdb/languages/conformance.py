@@ -120,7 +120,7 @@ def _voice(found: LanguageFolder) -> Voice:
 
 def _pairs(code: str, coverage: Coverage | None) -> Iterator[Remark]:
     """A note on the pairs that the sample lacks."""
-    if coverage and coverage.missing and coverage.sentences:
+    if coverage and coverage.missing:
         shown = " ".join("-".join(pair) for pair in coverage.missing[:SHOWN])
         rest = f" and {len(coverage.missing) - SHOWN} more (--json has all)" if len(coverage.missing) > SHOWN else ""
         message = f"{len(coverage.missing)} of {coverage.possible} pairs of common phones occur in no sentence: {shown}{rest}"

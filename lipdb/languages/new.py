@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from lipdb.speech.voice import Phrases
 
 CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
+SCRIPT = re.compile(r"[A-Z][a-z]{3}")
 SENTENCES = 200
 NUMBERS = (*range(101), 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1_000_000)
 _AT_ONCE = 5
@@ -65,6 +66,8 @@ def new_language(
     from lipdb.speech.espeak_list import espeak_voices, known_voice, letters_of, script_of
 
     _require_free(code, folder, records)
+    if script and not SCRIPT.fullmatch(script):
+        raise InputError(f"{script!r} is no script; give its four letters (ISO 15924), such as Latn or Cyrl")
     known_voice(voice)
     sentences = () if text is None else _sentences(text, source, records)
     script = script or script_in(text or "") or script_of(voice)

@@ -19,7 +19,7 @@ from lipdb.schedule import SILENCE
 
 NOTATION = "ipa"
 """The own notation of a new language: its phones are named by their IPA."""
-RARE = 1 / 2000
+RARE = 1 / 10_000
 """A phone with a smaller share of a text may come from a name or a foreign word; a short text can't tell."""
 _TIE = "\u0361"
 
