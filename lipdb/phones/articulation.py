@@ -19,13 +19,14 @@ NEUTRAL = "ah"
 class Verdict:
     """One *common* phone, how sure the rule is (0 to 1), a phrase that says why, and the letters (*text*) that it stands for.
 
-    The rounding of kʷ stands for no letter.
+    The rounding of kʷ stands for no letter. *other* is the common phone that would also do, where the rule knows one.
     """
 
     common: str
     confidence: float
     reason: str
     text: str = ""
+    other: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,72 +39,78 @@ class Classified:
     verdicts: tuple[Verdict, ...] = ()
 
 
-# Manners (empty: any), places (empty: any), common phone, confidence, reason; the first that fits wins.
-_Rule = tuple[tuple[str, ...], tuple[str, ...], str, float, str]
+# Manners (empty: any), places (empty: any), common phone, what would also do (may be empty), confidence, reason; the first
+# that fits wins.
+_Rule = tuple[tuple[str, ...], tuple[str, ...], str, str, float, str]
 _RULES: tuple[_Rule, ...] = (
-    (("plosive", "implosive", "nasal", "click", "trill"), ("bilabial",), "bmp", 1.0, "the lips close"),
-    ((), ("labiodental",), "f", 1.0, "the lower lip meets the upper teeth"),
-    ((), ("bilabial",), "f", 0.7, "the lips come close but do not shut; nearest is f"),
-    ((), ("linguolabial",), "th", 0.6, "the tongue is seen at the upper lip"),
-    ((), ("labial-velar",), "w", 1.0, "the lips round and come forward"),
-    ((), ("labial-palatal",), "ue", 1.0, "the lips round over a front tongue"),
-    (("lateral", "lateral click"), (), "l", 0.9, "the tongue lets air pass at its sides"),
-    (("approximant",), ("palatal",), "sh", 0.8, "the paper puts the consonant of yard here"),
-    (("approximant",), TIP, "r", 0.9, "the tongue curls up without touching"),
-    (("trill",), ("alveolar",), "r", 0.7, "the tongue tip trills; d would also do"),
-    (("fricative",), ("dental",), "th", 1.0, "the tongue tip is seen at the teeth"),
-    (("fricative",), ("alveolar",), "z", 1.0, "the teeth nearly shut for a hiss"),
-    (("fricative",), HUSH, "sh", 0.9, "the teeth nearly shut for a hush, behind the ridge"),
-    (("fricative",), ("pharyngeal", "glottal"), "h", 0.8, "made in the throat, the mouth is free"),
-    (("plosive",), ("pharyngeal", "glottal"), "h", 0.6, "shut in the throat only, the mouth is free"),
-    (("nasal", "click"), (), "d", 0.9, "the tongue shuts the mouth, as for n or ng"),
-    ((), TIP, "d", 1.0, "the tongue tip touches behind the teeth"),
-    ((), ("palatal",), "kg", 0.7, "the middle of the tongue rises to the palate; d would also do"),
-    ((), (), "kg", 0.9, "the back of the tongue rises"),
+    (("plosive", "implosive", "nasal", "click", "trill"), ("bilabial",), "bmp", "", 1.0, "the lips close"),
+    ((), ("labiodental",), "f", "", 1.0, "the lower lip meets the upper teeth"),
+    ((), ("bilabial",), "f", "bmp", 0.7, "the lips come close but do not shut"),
+    ((), ("linguolabial",), "th", "d", 0.6, "the tongue is seen at the upper lip"),
+    ((), ("labial-velar",), "w", "", 1.0, "the lips round and come forward"),
+    ((), ("labial-palatal",), "ue", "", 1.0, "the lips round over a front tongue"),
+    (("lateral", "lateral click"), (), "l", "d", 0.9, "the tongue lets air pass at its sides"),
+    (("approximant",), ("palatal",), "sh", "ih", 0.7, "the paper puts the consonant of yard here; to the lips alone it is an ih"),
+    (("approximant",), TIP, "r", "", 0.9, "the tongue curls up without touching"),
+    (("trill",), ("alveolar",), "r", "d", 0.7, "the tongue tip trills"),
+    (("fricative",), ("dental",), "th", "", 1.0, "the tongue tip is seen at the teeth"),
+    (("fricative",), ("alveolar",), "z", "", 1.0, "the teeth nearly shut for a hiss"),
+    (("fricative",), ("palatal",), "sh", "kg", 0.9, "the teeth nearly shut for a hush, at the palate"),
+    (("fricative",), HUSH, "sh", "", 0.9, "the teeth nearly shut for a hush, behind the ridge"),
+    (("fricative",), ("pharyngeal", "glottal"), "h", "kg", 0.8, "made in the throat, the mouth is free"),
+    (("plosive",), ("pharyngeal", "glottal"), "h", "kg", 0.6, "shut in the throat only, the mouth is free"),
+    (("nasal", "click"), (), "d", "", 0.9, "the tongue shuts the mouth, as for n or ng"),
+    ((), TIP, "d", "", 1.0, "the tongue tip touches behind the teeth"),
+    ((), ("palatal",), "kg", "d", 0.7, "the middle of the tongue rises to the palate"),
+    (("fricative", "trill"), BACK, "kg", "h", 0.9, "the back of the tongue rises"),
+    ((), (), "kg", "", 0.9, "the back of the tongue rises"),
 )
 
 
 def _consonant(letter: Letter) -> Verdict:
     if letter.syllabic and letter.manner == "approximant" and letter.place in TIP:
-        return Verdict("er", 0.6, "an r that carries the syllable; where it stands for an apical vowel, ih", letter.text)
+        return Verdict("er", 0.6, "an r that carries the syllable; where it stands for an apical vowel, ih", letter.text, "ih")
     if letter.letter == "ɰ" and letter.rounded:
         return Verdict("w", 0.8, "a w with compressed lips", letter.text)
-    for manners, places, common, confidence, reason in _RULES:
+    for manners, places, common, other, confidence, reason in _RULES:
         if (not manners or letter.manner in manners) and (not places or letter.place in places):
-            return Verdict(common, confidence * letter.sure, reason, letter.text)
+            return Verdict(common, confidence * letter.sure, reason, letter.text, other)
     raise AssertionError(f"the last rule fits every consonant, {letter} too")
 
 
 def _vowel(letter: Letter) -> Verdict:
-    common, confidence, reason = _rounded(letter) if letter.rounded else _unrounded(letter)
+    common, other, confidence, reason = _rounded(letter) if letter.rounded else _unrounded(letter)
     if letter.rhotic:
-        common, confidence, reason = "er", 0.9, "an r-coloured vowel"
-    return Verdict(common, confidence * letter.sure, reason, letter.text)
+        common, other, confidence, reason = "er", "", 0.9, "an r-coloured vowel"
+    return Verdict(common, confidence * letter.sure, reason, letter.text, other)
 
 
-def _unrounded(letter: Letter) -> tuple[str, float, str]:
+def _unrounded(letter: Letter) -> tuple[str, str, float, str]:
     height, back = letter.height, letter.back
     if height < 0.25:
-        return "ih", 0.7 if back > 0.7 else 0.95, "close and unrounded"
+        return ("ih", "w", 0.7, "close and unrounded, at the back") if back > 0.7 else ("ih", "", 0.95, "close and unrounded")
     if height > 0.9:
-        hint = "" if back > 0.7 else "; where /a/ is written the vowel is mostly central"
-        return "aa", 1.0 if back > 0.7 else 0.7 + 0.2 * back, "the jaw wide open" + hint
+        if back > 0.7:
+            return "aa", "", 1.0, "the jaw wide open"
+        return "aa", "ah", 0.75 + 0.2 * back, "the jaw wide open; where /a/ is written the vowel is mostly central"
     if (height < 0.42 and back < 0.7) or (back < 0.4 and height < 0.75):
-        return "eh", 0.95 - 0.5 * back, "mid and unrounded, at the front"
+        return "eh", "ah" if back > 0.2 else "", 0.95 - 0.5 * back, "mid and unrounded, at the front"
     if letter.letter == "ɜ":
-        return "er", 0.6, "the vowel of fur where no r is said; elsewhere ah"
-    return "ah", 0.9, "between mid and open, unrounded"
+        return "er", "ah", 0.6, "the vowel of fur where no r is said; elsewhere ah"
+    return "ah", "", 0.9, "between mid and open, unrounded"
 
 
-def _rounded(letter: Letter) -> tuple[str, float, str]:
+def _rounded(letter: Letter) -> tuple[str, str, float, str]:
     height, back = letter.height, letter.back
     if back < 0.4 and height < 0.9:
-        return "ue", 0.9 - 0.5 * height, "rounded at the front"
+        return "ue", "ao" if height > 0.6 else "", 0.9 - 0.5 * height, "rounded at the front"
     if height < 0.25:
-        return "w", 0.95 if back > 0.7 else 0.8, "close and rounded, as in too"
+        return (
+            ("w", "", 0.95, "close and rounded, as in too") if back > 0.7 else ("w", "ue", 0.8, "close and rounded, not quite at the back")
+        )
     if height < 0.42:
-        return "ow", 0.8, "mid and rounded, as in go"
-    return "ao", 0.9 if back > 0.7 else 0.6, "open and rounded, as in dog"
+        return "ow", "ao", 0.8, "mid and rounded, as in go"
+    return ("ao", "ow", 0.9, "open and rounded, as in dog") if back > 0.7 else ("ao", "ue", 0.6, "open and rounded, not at the back")
 
 
 def _off_glide(letter: Letter) -> Verdict:
@@ -162,7 +169,9 @@ def _affricate(first: Letter, second: Letter) -> list[Verdict] | None:
     release = _consonant(second)
     if first.place == "bilabial":
         return [_consonant(first), release]
-    return [Verdict(release.common, release.confidence * 0.95, f"a stop that opens into {second.letter}: {release.reason}", text)]
+    return [
+        Verdict(release.common, release.confidence * 0.95, f"a stop that opens into {second.letter}: {release.reason}", text, release.other)
+    ]
 
 
 def _essential(letters: tuple[Letter, ...]) -> tuple[Letter, ...]:

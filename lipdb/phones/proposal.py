@@ -15,8 +15,8 @@ from lipdb.phones.second_opinion import opinions
 from lipdb.phones.segments import Segment, read_segment
 
 _NO_ROWS: Mapping[Key, Row] = MappingProxyType({})
-UNSURE = 0.6
-"""Below this confidence a person should look, whatever the second opinion says."""
+UNSURE = 0.7
+"""With no more confidence than this a person should look, whatever the second opinion says."""
 _DISAGREEMENT, _DOUBT = 0.8, 0.9
 """What each of them leaves of the confidence."""
 
@@ -81,12 +81,16 @@ def _judged(ipa: str, found: Classified, read: Segment) -> Proposal:
         notes.append(f"review: {bar} is read as a click; between phrases it would be a pause")
     unseen = [f"({', '.join(read.unseen)}: not seen)"] if read.unseen else []
     reason = "; ".join([" ".join([found.reason, *unseen]), *notes])
-    return Proposal(ipa, found.common, round(confidence, 3), reason, _second(found), bool(notes) or confidence < UNSURE)
+    return Proposal(ipa, found.common, round(confidence, 3), reason, _second(found), bool(notes) or confidence <= UNSURE)
 
 
 def _second(found: Classified) -> tuple[str, ...]:
-    """The answer with its least certain part replaced by what PanPhon finds nearest beside it; nothing when it can't say."""
+    """The answer with its least certain part replaced by what would also do: by the rules, or else by PanPhon's features.
+
+    Nothing when neither can say.
+    """
     weakest = min((verdict for verdict in found.verdicts if verdict.text), key=lambda verdict: verdict.confidence)
-    other = next((opinion.common for opinion in opinions(weakest.text) if opinion.common != weakest.common), "")
+    near = (opinion.common for opinion in opinions(weakest.text) if opinion.common != weakest.common)
+    other = weakest.other or next(near, "")
     row = [other if verdict is weakest else verdict.common for verdict in found.verdicts]
     return tuple(common for common, _ in groupby(row)) if other else ()
