@@ -56,7 +56,8 @@ def test_without_panphon_the_answers_are_the_same(monkeypatch):
         found = propose("ʁ")
         assert found.common == with_it
         assert found.confidence == classify("ʁ").confidence
-        assert found.second == ()
+        assert found.second == ("h",)
+        assert propose("t").second == ()
     finally:
         monkeypatch.undo()
         opinions.cache_clear()

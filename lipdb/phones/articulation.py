@@ -105,9 +105,7 @@ def _rounded(letter: Letter) -> tuple[str, str, float, str]:
     if back < 0.4 and height < 0.9:
         return "ue", "ao" if height > 0.6 else "", 0.9 - 0.5 * height, "rounded at the front"
     if height < 0.25:
-        return (
-            ("w", "", 0.95, "close and rounded, as in too") if back > 0.7 else ("w", "ue", 0.8, "close and rounded, not quite at the back")
-        )
+        return ("w", "", 0.95, "close and rounded, as in too") if back > 0.7 else ("w", "ue", 0.8, "close and rounded, further front")
     if height < 0.42:
         return "ow", "ao", 0.8, "mid and rounded, as in go"
     return ("ao", "ow", 0.9, "open and rounded, as in dog") if back > 0.7 else ("ao", "ue", 0.6, "open and rounded, not at the back")
@@ -169,9 +167,8 @@ def _affricate(first: Letter, second: Letter) -> list[Verdict] | None:
     release = _consonant(second)
     if first.place == "bilabial":
         return [_consonant(first), release]
-    return [
-        Verdict(release.common, release.confidence * 0.95, f"a stop that opens into {second.letter}: {release.reason}", text, release.other)
-    ]
+    reason = f"a stop that opens into {second.letter}: {release.reason}"
+    return [Verdict(release.common, release.confidence * 0.95, reason, text, release.other)]
 
 
 def _essential(letters: tuple[Letter, ...]) -> tuple[Letter, ...]:
