@@ -1,12 +1,13 @@
 """Arabic with vowel signs, spelt so that espeak-ng reads every sign of it.
 
-What is written stays the same word; three habits of espeak-ng 1.52 are met, each observed by running it. (A fourth, that the shadda
-must stand in front of its vowel, `lipdb.speech.text` sees to.)
+What is written stays the same word; four habits of espeak-ng 1.52 are met, each observed by running it.
 """
 
 from __future__ import annotations
 
 import re
+
+from lipdb.speech.text import SHADDA_LAST
 
 SHORT_VOWELS = "\u064b-\u0650"
 # Behind the article espeak doubles a sun letter by itself; with the shadda that is written there it would be threefold.
@@ -18,5 +19,6 @@ _CLOSING_ALIF = re.compile(f"(?<=\u064f\u0648)\u0652?ا(?![\\w{SHORT_VOWELS}\u06
 
 
 def spelt_for_espeak(text: str) -> str:
-    """*text* with one shadda less behind the article, and silent alifs marked or left out."""
+    """*text* with the shadda in front of its vowel, one less behind the article, and silent alifs marked or left out."""
+    text = SHADDA_LAST.sub("\u0651\\1", text)
     return _CLOSING_ALIF.sub("", _SILENT_ALIF.sub("ٱ", _SUN_LETTER.sub("\\1", text)))
