@@ -31,3 +31,10 @@ def steps(items: Iterable[T], *, total: int, what: str) -> Iterator[T]:
         yield item
         if report is not None:
             report(what, done, total)
+
+
+def report(what: str, done: int, total: int) -> None:
+    """Tell whoever wants to know that *done* of *total* steps are done."""
+    told = _report.get()
+    if told is not None:
+        told(what, done, total)

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
@@ -29,8 +30,10 @@ FINDINGS = pa.schema([("document", pa.string()), ("reason", pa.string()), ("coun
 """Lines that were left out or read in a way that a person may not expect; see `lipdb.coverage.findings`."""
 DOCUMENTS = pa.schema([("document", pa.string()), ("lines", pa.int64()), ("spoken", pa.int64())])
 """How many lines a document has, blank ones left out, and how many of them were counted."""
-SAMPLE = pa.schema([("left", pa.string()), ("right", pa.string()), ("exact", pa.int64()), ("fast", pa.int64())])
-"""Pairs of a sample of the lines, counted both ways, where a counter takes short cuts: what its error is measured on."""
+SAMPLE = pa.schema([("fold", pa.int64()), ("left", pa.string()), ("right", pa.string()), ("exact", pa.int64()), ("fast", pa.int64())])
+"""Pairs of a sample of the lines, counted both ways, where a counter takes short cuts: what its error is measured on.
+
+Lines belong to one of a few *folds* by what is in them, to tell how far chance goes."""
 
 _SCHEMAS = {"pairs": PAIRS, "findings": FINDINGS, "documents": DOCUMENTS, "sample": SAMPLE}
 _HOW = {"count": "sum", "lines": "sum", "spoken": "sum", "exact": "sum", "fast": "sum", "example": "min"}
@@ -119,6 +122,15 @@ class Counts:
             tables[name] = tables[name].set_column(0, tables[name].schema.field(0), column)
         return Counts.of(**tables)
 
+    def between(self, low: str, high: str | None) -> Counts:
+        """The counts of the documents from *low* to before *high* by name (None: to the last); the sample goes with the first."""
+        tables = {name: getattr(self, name) for name in _SCHEMAS}
+        for name in ("pairs", "findings", "documents"):
+            document = tables[name]["document"]
+            within = pc.greater_equal(document, low)
+            tables[name] = tables[name].filter(within if high is None else pc.and_(within, pc.less(document, high)))
+        return Counts(**(tables if not low else {**tables, "sample": SAMPLE.empty_table()}))
+
     def write(self, path: Path, **metadata: Any) -> None:
         """Write into the Parquet file *path*, whole or not at all: the pairs as rows, the rest in its metadata."""
         small = {name: getattr(self, name).to_pydict() for name in _SCHEMAS if name != "pairs"}
@@ -128,7 +140,7 @@ class Counts:
     def read(cls, path: Path) -> Self:
         """What `write` wrote. Raises `OSError` or `ValueError` for any other file."""
         pairs = pq.read_table(path)
-        told = read_metadata(pairs.schema)
+        told = read_metadata(pairs.schema.metadata)
         if not pairs.schema.equals(PAIRS) or not all(name in told for name in _SCHEMAS if name != "pairs"):
             raise ValueError(f"{path}: no counts of a part of a corpus")
         small = {name: pa.table(told[name], schema=schema) for name, schema in _SCHEMAS.items() if name != "pairs"}
@@ -137,14 +149,18 @@ class Counts:
 
 def write_table(table: pa.Table, path: Path, metadata: Mapping[str, Any]) -> None:
     """Write *table* as Parquet, whole or not at all, with *metadata* as JSON under names of our own. Raises `OutputError`."""
-    told = {_PREFIX + name.encode(): json.dumps(value, ensure_ascii=False).encode() for name, value in metadata.items()}
     with whole_file(path) as temporary:
-        pq.write_table(table.replace_schema_metadata(told), temporary, compression="zstd")
+        pq.write_table(table.replace_schema_metadata(metadata_of(metadata)), temporary, compression="zstd")
 
 
-def read_metadata(schema: pa.Schema) -> dict[str, Any]:
-    """The metadata that `write_table` put there."""
-    found = (schema.metadata or {}).items()
+def metadata_of(told: Mapping[str, Any]) -> dict[bytes, bytes]:
+    """*told* as the metadata of a Parquet file: JSON under names of our own."""
+    return {_PREFIX + name.encode(): json.dumps(value, ensure_ascii=False).encode() for name, value in told.items()}
+
+
+def read_metadata(metadata: Mapping[bytes, bytes] | None) -> dict[str, Any]:
+    """What `metadata_of` was told."""
+    found = (metadata or {}).items()
     return {name.removeprefix(_PREFIX).decode(): json.loads(value) for name, value in found if name.startswith(_PREFIX)}
 
 

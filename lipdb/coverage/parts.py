@@ -16,22 +16,19 @@ import pyarrow.parquet as pq
 
 from lipdb.coverage.counts import DOCUMENTS, PAIRS, Counter, Counts
 from lipdb.coverage.cut import Piece, digests, read_piece
-from lipdb.coverage.findings import CUT_OFF, NOT_READABLE
+from lipdb.coverage.findings import NOT_READABLE
 from lipdb.coverage.lines import finding, lines_of, rows_of
 from lipdb.errors import InputError
 from lipdb.schedule import SILENCE
 
-ALIGNMENTS = "alignments 1"
-"""In place of a counter's key for parts that no voice reads: change it with anything that changes their counts."""
 _SMALLEST = 1 << 12  # Bytes. A part that is not larger is not cut in halves again.
 
 
 class Content(NamedTuple):
-    """What a part holds: its digests, and a function that counts it. No voice is asked when it says so."""
+    """What a part holds: its digests, and a function that counts it."""
 
     digests: tuple[str, ...]
     counted: Callable[[Counter], Counts]
-    asks: bool = True
 
 
 class Part(Protocol):
@@ -44,6 +41,10 @@ class Part(Protocol):
     @property
     def weight(self) -> int:
         """How much work it is, in bytes; about."""
+
+    @property
+    def named(self) -> bool:
+        """Whether its counts name their documents; else they have no name, and all are of the file."""
 
     def read(self) -> Content:
         """Its content. Raises `OSError` when the file can't be read (any more)."""
@@ -62,6 +63,11 @@ class FilePart:
     size: int
 
     @property
+    def named(self) -> bool:
+        """No."""
+        return False
+
+    @property
     def weight(self) -> int:
         """Its bytes."""
         return self.size
@@ -69,8 +75,7 @@ class FilePart:
     def read(self) -> Content:
         """The text."""
         with self.path.open("rb") as file:
-            piece = read_piece(file, self.start, self.size)
-        return _text(self.document, piece)
+            return _text(read_piece(file, self.start, self.size))
 
     def halves(self) -> tuple[Part, ...]:
         """Those that start in each half."""
@@ -88,13 +93,18 @@ class StreamPart:
     piece: Piece
 
     @property
+    def named(self) -> bool:
+        """No."""
+        return False
+
+    @property
     def weight(self) -> int:
         """Its bytes."""
         return len(self.piece.raw)
 
     def read(self) -> Content:
         """The text."""
-        return _text(self.document, self.piece)
+        return _text(self.piece)
 
     def halves(self) -> tuple[Part, ...]:
         """The lines of each half."""
@@ -105,12 +115,12 @@ class StreamPart:
         return StreamPart(self.document, first), StreamPart(self.document, second)
 
 
-def _text(document: str, piece: Piece) -> Content:
+def _text(piece: Piece) -> Content:
     raw = piece.raw.removeprefix(codecs.BOM_UTF8) if piece.at == 0 else piece.raw
 
     def count(counter: Counter) -> Counts:
         lines, left_out = lines_of(raw)
-        return (counter.count(lines) + left_out).named(document)
+        return counter.count(lines) + left_out
 
     return Content(digests(piece), count)
 
@@ -155,12 +165,9 @@ class RowsPart:
 
     def _count(self, counter: Counter) -> Counts:
         total = Counts.of()
-        try:
-            for batch in self._batches(counter.size):
-                lines, left_out = rows_of(batch, None if self.named else self.document)
-                total += counter.count(lines) + left_out
-        except (OSError, pa.ArrowException) as error:
-            total += finding(self.document, CUT_OFF, f"row group {self.group} is damaged: {error}")
+        for batch in self._batches(counter.size):
+            lines, left_out = rows_of(batch, None if self.named else "")
+            total += counter.count(lines) + left_out
         return total
 
     def _batches(self, size: int) -> Iterator[pa.RecordBatch]:
@@ -179,6 +186,11 @@ class AlignedPart:
     path: Path
 
     @property
+    def named(self) -> bool:
+        """No."""
+        return False
+
+    @property
     def weight(self) -> int:
         """Its bytes."""
         return self.path.stat().st_size
@@ -186,7 +198,7 @@ class AlignedPart:
     def read(self) -> Content:
         """The phones of the file."""
         digest = hashlib.sha256(self.path.read_bytes()).hexdigest()
-        return Content((digest,), self._count, asks=False)
+        return Content((digest,), self._count)
 
     def halves(self) -> tuple[Part, ...]:
         """An alignment is not divided."""
@@ -198,11 +210,11 @@ class AlignedPart:
         try:
             schedule = read_textgrid(self.path)
         except InputError as error:
-            return finding(self.document, NOT_READABLE, str(error).removeprefix(f"{self.path}: "))
+            return finding("", NOT_READABLE, str(error).removeprefix(f"{self.path}: "))
         pairs = Tally(pairwise((SILENCE, *(phone.symbol for phone in schedule.phones), SILENCE)))
         pairs.pop((SILENCE, SILENCE), None)
-        rows = [(self.document, left, right, count) for (left, right), count in pairs.items()]
+        rows = [("", left, right, count) for (left, right), count in pairs.items()]
         return Counts.of(
             pairs=pa.table([list(column) for column in zip(*rows, strict=True)] if rows else [[]] * 4, schema=PAIRS),
-            documents=pa.table([[self.document], [1], [1]], schema=DOCUMENTS),
+            documents=pa.table([[""], [1], [1]], schema=DOCUMENTS),
         )

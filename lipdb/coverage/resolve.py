@@ -104,8 +104,8 @@ def _within(
             places = np.flatnonzero(left == label)
             of, times = document.take(pa.array(places)), count[places]
             for one, following in pairwise(row):
-                here = [np.full(len(places), index[unit]) for unit in (one, following)]
-                tables.append(_table(of, *here, pa.chunked_array([times]), names))
+                first, second = (np.full(len(places), index[unit]) for unit in (one, following))
+                tables.append(_table(of, first, second, pa.chunked_array([times]), names))
     return tables
 
 

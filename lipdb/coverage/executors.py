@@ -1,0 +1,158 @@
+"""Who counts: threads or processes of this machine, or an existing Dask cluster, all through one interface.
+
+Each is a `concurrent.futures.Executor`: tasks go in, results come out in any order. What is lost with a worker is done again by
+others: Dask does so itself, and for processes of this machine `Workers` starts new ones.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import ExitStack
+from functools import partial
+from multiprocessing import connection
+from typing import Any, Generic, NamedTuple, Self, TypeVar
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+AHEAD = 2
+"""Tasks for each worker that are not done yet: so that none is idle, and memory stays bounded."""
+
+
+class Done(NamedTuple, Generic[Task, Result]):
+    """A task and its result; None when it ended the worker that did it, twice, the second time with nothing beside it."""
+
+    task: Task
+    result: Result | None
+
+
+class Workers:
+    """Those who work. Use it as a context manager; afterwards none of them is left.
+
+    *count* is how many (0: one a core); *threads* of this process or processes of their own. With *scheduler*, the address of a
+    Dask scheduler or ``local`` for a cluster of our own, they are Dask's. *seconds* tells how much time of a processor a task
+    may take before a process gives it up; only the processes of this machine obey it.
+    """
+
+    def __init__(
+        self, count: int = 0, *, threads: bool = False, scheduler: str = "", seconds: Callable[[Any], float] | None = None
+    ) -> None:
+        self.count = count or cores()
+        self._threads, self._scheduler, self._seconds = threads, scheduler, seconds
+        self._executor: Executor
+        self._stack = ExitStack()
+
+    def __enter__(self) -> Self:
+        self._start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def map(self, work: Callable[[Task], Result], tasks: Iterable[Task]) -> Iterator[Done[Task, Result]]:
+        """The result of *work* for each of *tasks*, in any order; *work* and tasks are such as can be pickled.
+
+        Tasks are taken only as fast as they are done. Raises what *work* raises.
+        """
+        suspects: list[Task] = []
+        running: dict[Future[Result], Task] = {}
+        for task in tasks:
+            running[self._submit(work, task)] = task
+            if len(running) >= self.count * AHEAD:
+                yield from self._finished(running, suspects)
+        while running:
+            yield from self._finished(running, suspects)
+        for task in suspects:
+            future = self._submit(work, task)
+            wait([future])
+            yield Done(task, None if _lost(future) else future.result())
+
+    def _finished(self, running: dict[Future[Result], Task], suspects: list[Task]) -> Iterator[Done[Task, Result]]:
+        """Wait for some of *running*; those whose worker was lost become *suspects*."""
+        for future in wait(running, return_when=FIRST_COMPLETED).done:
+            task = running.pop(future)
+            if _lost(future):
+                suspects.append(task)
+            else:
+                yield Done(task, future.result())
+
+    def _submit(self, work: Callable[[Task], Result], task: Task) -> Future[Result]:
+        limited = self._seconds and not self._threads and not self._scheduler and _CAN_LIMIT
+        do = partial(_within, self._seconds(task), work) if limited and self._seconds else work
+        try:
+            return self._executor.submit(do, task)
+        except BrokenProcessPool:
+            self._stack.close()
+            self._start()
+            return self._executor.submit(do, task)
+
+    def _start(self) -> None:
+        if self._scheduler:
+            from lipdb.coverage.dask_workers import dask_executor
+
+            self._executor, self.count = self._stack.enter_context(dask_executor(self._scheduler, self.count))
+        elif self._threads:
+            self._executor = ThreadPoolExecutor(self.count)
+            self._stack.callback(self._executor.shutdown, cancel_futures=True)
+        else:
+            # Spawned: a fork of a process with threads can wait for a lock that nobody holds.
+            context = multiprocessing.get_context("spawn")
+            pool = ProcessPoolExecutor(self.count, mp_context=context, initializer=_begin)
+            self._executor = pool
+            self._stack.callback(_end, pool)
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _lost(future: Future[Result]) -> bool:
+    """Whether the worker of *future* was lost with it."""
+    error = future.exception()
+    # By name, for Dask is imported only by those who use it.
+    return isinstance(error, BrokenProcessPool) or type(error).__name__ == "KilledWorker"
+
+
+_CAN_LIMIT = hasattr(signal, "setitimer")
+
+
+def _within(seconds: float, work: Callable[[Task], Result], task: Task) -> Result:
+    """Do *work*, for *seconds* of the processor's time at most: then the system ends the process.
+
+    A call that hangs in C can't be stopped in any other way; time of the processor, so that a busy or sleeping machine does no harm.
+    """
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        return work(task)
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+
+
+def _begin() -> None:
+    """Prepare a worker process: Ctrl-C is its parent's business, and it ends when its parent does, however that ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_follow, args=(parent.sentinel,), daemon=True).start()
+
+
+def _follow(parent: int) -> None:
+    connection.wait([parent])
+    os._exit(1)
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End the processes of *pool* at once, whatever they do."""
+    processes = list((pool._processes or {}).values())
+    pool.shutdown(wait=False, cancel_futures=True)
+    for process in processes:
+        process.terminate()
+    for process in processes:
+        process.join()
