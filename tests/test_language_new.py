@@ -13,6 +13,7 @@ from lipdb.errors import InputError, PhonesetError
 from lipdb.languages.conformance import check_language
 from lipdb.languages.labels import read_espeak
 from lipdb.languages.new import new_language
+from lipdb.languages.precedent import judged, precedents
 from lipdb.languages.text import chosen, script_in, sentences_of, words_of
 from lipdb.languages.xsampa import xsampa
 from lipdb.speech.espeak_list import espeak_voices, known_voice, letters_of, script_of
@@ -75,6 +76,26 @@ def test_every_phone_is_a_proposal_with_a_reason_and_a_word_of_the_text(make):
     assert {phone: phones[phone,]["common"] for phone in ("ʃ", "tɕ", "dʒ", "m", "ɛ", "w")} == {
         "ʃ": "sh", "tɕ": "sh", "dʒ": "sh", "m": "bmp", "ɛ": "eh", "w": "w",
     }  # fmt: skip
+
+
+def test_what_most_other_languages_do_is_proposed_before_the_rule(make, records):
+    def row(common, origin="authored"):
+        return {"phone": "r", "ipa": "r", "common": common, "origin": origin}
+
+    def proposed(**languages):
+        known = {f"{code}/phones.tsv": {("r",): row(*cells)} for code, cells in languages.items()}
+        return judged("r", {**records, **known}, precedents({**records, **known}))
+
+    rule = proposed()
+    assert rule.common == ("r",)
+    two = proposed(aa=["d"], bb=["d"])
+    assert (two.common, two.review) == (("d",), False)
+    assert two.reason.startswith("like aa, bb; by the rule r: ")
+    assert proposed(aa=["d"]) == rule  # one language may be a special case
+    assert proposed(aa=["d"], bb=["d", "generated"]) == rule  # a rule is no second voice
+    assert proposed(aa=["d"], bb=["d"], cc=["r"], dd=["r"]) == rule  # no most
+    torn = proposed(aa=["d"], bb=["d"], cc=["r"])
+    assert (torn.common, torn.review) == (("d",), True)
 
 
 def test_what_the_second_opinion_doubts_waits_for_review(make):
@@ -257,16 +278,16 @@ def test_from_nothing_to_a_speaking_character(lipdb, tmp_path):
     before = phones.read_text("utf-8")
     (row,) = (line for line in before.splitlines() if line.startswith("r\t"))
     cells = row.split("\t")
-    cells[3], cells[5], cells[10] = "d", "authored", "Trilled with the tip: what is seen is the tongue at the ridge"
+    cells[3], cells[5], cells[10] = "l", "authored", "A test of what a person may decide"
     phones.write_text(before.replace(row, "\t".join(cells)), "utf-8")
     code, out, err = lipdb("language", "check", "pl")
     assert code == 0, out
-    assert "review: r maps to d here, articulation says r" in out
+    assert "review: r maps to l here, articulation says r" in out
 
     code, out, err = lipdb("phones", "rano", "-l", "pl", "--json")
     assert code == 0, err
     assert [(phone["symbol"], phone["common"], phone["layer"]) for phone in json.loads(out) if phone["symbol"] == "r"] == [
-        ("r", ["d"], "language:pl")
+        ("r", ["l"], "language:pl")
     ]
     film = tmp_path / "hello.csv"
     code, out, err = lipdb("say", "Dzień dobry, chrząszczu!", "-l", "pl", "-o", film)

@@ -11,9 +11,10 @@ from typing import Any
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row, key_of
 from lipdb.languages.labels import Reading, has_tones, read_espeak
+from lipdb.languages.precedent import judged, precedents
 from lipdb.languages.rules import REVIEW
 from lipdb.languages.xsampa import xsampa
-from lipdb.phones.proposal import Proposal, propose
+from lipdb.phones.proposal import Proposal
 from lipdb.phones.segments import read_segment
 from lipdb.schedule import SILENCE
 
@@ -80,17 +81,17 @@ class Proposed:
 
 
 def propose_phones(heard: Counter[str], examples: Mapping[str, str], records: Records) -> Proposed:
-    """Phones for the labels that were *heard*, with *examples* (label → word), mapped with the shared tables of *records*."""
+    """Phones for the labels that were *heard*, with *examples* (label → word), mapped as in the languages of *records* or by rule."""
     tonal = has_tones(heard)
     readings = [read_espeak(label, tonal=tonal) for label in sorted(heard)]
     of: dict[str, list[Reading]] = {}
     for reading in readings:
         for segment in reading.segments:
             of.setdefault(segment, []).append(reading)
-    rows, common = records.get("ipa.tsv", {}), records.get("common.tsv", {})
+    known, common = precedents(records), records.get("common.tsv", {})
     phones, strange = [], [reading.label for reading in readings if not reading.segments]
     for segment, found in sorted(of.items()):
-        proposal = propose(segment, rows)
+        proposal = judged(segment, records, known)
         # A label of this phone alone, heard often, shows it best.
         found.sort(key=lambda reading: (not reading.plain, len(reading.segments), -heard[reading.label], reading.label))
         labels = tuple(dict.fromkeys(reading.label for reading in found))
