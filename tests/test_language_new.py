@@ -1,11 +1,10 @@
 """A thirteenth language: its folder is made from a voice and a text, checked, corrected as text, and spoken."""
 
 import json
-import shutil
 import sys
 
 import pytest
-from shared_tables import SHIPPED, copy_shared_tables
+from shared_tables import SHIPPED, copy_shared_tables, copy_workspace
 
 from lipdb.cli import main
 from lipdb.curated.folder import read_folder
@@ -245,8 +244,7 @@ def test_a_voice_that_espeak_lacks_is_refused_with_those_near():
 @pytest.fixture
 def lipdb(tmp_path, monkeypatch, capsys):
     """Run ``lipdb`` on a database and a folder of curated text of its own: exit code, output, errors."""
-    workspace = tmp_path / "text"
-    shutil.copytree(SHIPPED, workspace)
+    workspace = copy_workspace(tmp_path / "text")
     monkeypatch.setenv("LIPDB_AUTHOR", "anna")
 
     def run(*words):
