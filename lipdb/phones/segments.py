@@ -19,8 +19,8 @@ _OTHER_SPELLINGS = """
 g ɡ  α ɑ  ε ɛ  γ ɣ  δ ð  ϑ θ  φ ɸ  ϕ ɸ  υ ʊ  ι ɪ  λ ʎ  ∫ ʃ  ? ʔ
 ә ə  а a  е e  о o  с c  р p  х x  у y  і i  ѕ s  ј j  һ h  ӡ ʒ
 ! ǃ  | ǀ  || ǁ  ‖ ǁ  = ǂ  ≠ ǂ  ‡ ǂ  ⊙ ʘ  ☉ ʘ
-č tʃ  ǰ dʒ  š ʃ  ž ʒ  ř r̝  ƛ tɬ
-: ː  ' ʼ  ’ ʼ  ‘ ʼ  ′ ʼ  ` ʼ  ´ ʼ  ʻ ʰ  ˖ \u031f  ˗ \u0320  ˔ \u031d  ˕ \u031e  ʵ ˞  ʴ ˞  ʳ ˞  ‿ \u0361  \u035d \u0361
+č tʃ  ǰ dʒ  š ʃ  ž ʒ  ř r̝  ƛ tɬ  þ θ  ƕ hw
+: ː  ' ʼ  ’ ʼ  ‘ ʼ  ′ ʼ  ` ʼ  ´ ʼ  ʻ ʰ  ˖ \u031f  ˗ \u0320  ˔ \u031d  ˕ \u031e  ʵ ˞  ʴ ˞  ʳ ˞  ‿ \u0361  ⁀ \u0361  \u035d \u0361
 """
 _words = unicodedata.normalize("NFD", _OTHER_SPELLINGS).split()
 _SPELLINGS = dict(zip(_words[::2], _words[1::2], strict=True))
