@@ -1,0 +1,130 @@
+"""What a voice says to each written word by itself, asked once.
+
+A lexicon holds nothing but a voice's answers, so no result depends on what was in it before. Its answers are kept between
+scans (`lipdb.coverage.lexicon_files`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lipdb.coverage.codes import UNKNOWN, Codes, Keys
+from lipdb.coverage.exact import Speaker
+from lipdb.coverage.findings import NO_WORDS, REASONS
+from lipdb.coverage.readings import Numbers, Readings
+from lipdb.coverage.words import Words, spans
+from lipdb.schedule import SILENCE
+from lipdb.speech.voice import Voice
+
+Masks = NDArray[np.uint32]
+
+REMARKS = tuple(REASONS)
+"""What bit *i* of a mask of remarks means."""
+# A word that every language of a script can read: does the voice pause where something stands between two of it?
+_BESIDE = {
+    "Arab": "بابا", "Armn": "պապ", "Cyrl": "папа", "Deva": "पापा", "Geor": "მამა", "Grek": "παπα", "Hans": "爸", "Hant": "爸",
+    "Hebr": "אבא", "Jpan": "パパ", "Kore": "아빠", "Latn": "papa", "Thai": "ปาปา",
+}  # fmt: skip
+# Among Chinese characters a word in Latin letters is English; by itself it would be pinyin.
+_FRAMES = {"Hans": "啊，{}，啊", "Hant": "啊，{}，啊"}
+
+
+BREAK = f" {SILENCE} "
+"""Between the phrases of a reading."""
+
+
+class Answer(NamedTuple):
+    """What a voice says to *word*: labels between spaces, ``_`` where it pauses; and a mask of `REMARKS`."""
+
+    word: str
+    reading: str
+    remarks: int
+
+
+class Spelled(NamedTuple):
+    """A text as it was said: each phrase as labels between spaces; and a mask of `REMARKS`."""
+
+    phrases: list[str]
+    remarks: int
+
+
+class Lexicon:
+    """What *voice* says to words.
+
+    By the number of a word: *reading* is the number of its reading in *readings*, *remarks* a mask. *pauses* says of each gap
+    whether the voice pauses there. What was *asked* of the voice stands there until somebody keeps it.
+    """
+
+    def __init__(self, voice: Voice) -> None:
+        self.readings = Readings()
+        self.reading: Numbers = np.zeros(0, np.int32)
+        self.remarks: Masks = np.zeros(0, np.uint32)
+        self.pauses: NDArray[np.bool_] = np.zeros(0, bool)
+        self.asked: list[Answer] = []
+        self.speaker = Speaker(voice)
+        self._frame, self._beside = _FRAMES.get(voice.script, ""), _BESIDE.get(voice.script, "3")
+        self._words, self._gaps = Codes(), Codes()
+
+    def __len__(self) -> int:
+        return len(self._words)
+
+    def words(self, words: Words) -> Numbers:
+        """The numbers of *words*; the voice is asked for those that are new."""
+        keys = words.keys()
+        numbers = self._words.find(keys)
+        if (new := np.flatnonzero(numbers == UNKNOWN)).size:
+            places = _first(keys, new)
+            answers = [self._ask(words.word(place)) for place in places.tolist()]
+            self._admit(keys[places], answers)
+            self.asked += answers
+            numbers[new] = self._words.find(keys[new])
+        return numbers
+
+    def gaps(self, words: Words, places: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Whether the voice pauses in the gaps at *places*."""
+        keys = words.gap_keys(places)
+        numbers = self._gaps.find(keys)
+        if (new := np.flatnonzero(numbers == UNKNOWN)).size:
+            first = _first(keys, new)
+            said = [self.said(f"{self._beside}{words.gap(place)}{self._beside}").phrases for place in places[first].tolist()]
+            self.pauses = np.append(self.pauses, np.array([len(phrases) > 1 for phrases in said], bool))
+            self._gaps.add(keys[first])
+            numbers[new] = self._gaps.find(keys[new])
+        return self.pauses[numbers]
+
+    def learn(self, answers: Sequence[Answer]) -> None:
+        """Take over *answers* of the same voice, each to a word that is new."""
+        self._admit(spans([answer.word for answer in answers]).keys(), answers)
+
+    def _admit(self, keys: Keys, answers: Sequence[Answer]) -> None:
+        self.reading = np.append(self.reading, self.readings.number([answer.reading for answer in answers]))
+        self.remarks = np.append(self.remarks, np.array([answer.remarks for answer in answers], np.uint32))
+        self._words.add(keys)
+
+    def said(self, text: str) -> Spelled:
+        """*text* as the voice says it in running speech."""
+        said = self.speaker.say(text)
+        labels = [self.speaker.labels[code] for code in said.codes]
+        phrases = [" ".join(run) for sounds, run in groupby(labels, key=lambda label: label != SILENCE) if sounds]
+        return Spelled(phrases, mask_of(said.reasons))
+
+    def _ask(self, word: str) -> Answer:
+        framed = bool(self._frame) and word.isascii()
+        phrases, remarks = self.said(self._frame.format(word) if framed else word)
+        # A line may have other words.
+        return Answer(word, BREAK.join(phrases[1:-1] if framed else phrases), remarks & ~mask_of((NO_WORDS,)))
+
+
+def mask_of(reasons: Iterable[str]) -> int:
+    """*reasons* as a mask of `REMARKS`."""
+    return sum(1 << REMARKS.index(reason) for reason in reasons)
+
+
+def _first(keys: Keys, places: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Where each different key among *places* stands first, in order."""
+    return places[np.sort(np.unique(keys[places], return_index=True)[1])]

@@ -1,0 +1,89 @@
+"""A voice's answers, kept between scans: Parquet files that several processes may write at once.
+
+Each process adds files of its own, whole or not at all, named by what is in them. When there are many, whoever opens the
+lexicon joins them: the new file is there before the old ones go, so nothing is lost, and an answer that is there twice is
+the same answer. A file that can't be read is done without, and so is a folder that can't be written.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from lipdb.coverage.lexicon import Answer, Lexicon
+from lipdb.errors import OutputError
+from lipdb.files import whole_file
+from lipdb.speech.cache import cache_folder
+from lipdb.speech.voice import Voice
+
+FORMAT = 1
+MOST = 2_000_000
+"""Words. A lexicon that has more is given up for an empty one, and none are kept beyond, whatever people write."""
+_WORTH_A_FILE = 2000  # Answers: fewer are sooner asked for again than opened.
+_MANY = 16
+_FILE = pa.schema([("word", pa.string()), ("reading", pa.string()), ("remarks", pa.int64())])
+_SUFFIX = ".parquet"
+
+
+def lexicon_folder(voice: Voice) -> Path:
+    """Where the answers of this version of *voice* are kept, in the user's cache."""
+    version = f"{FORMAT} {voice.language} {voice.name} {voice.version}"
+    return cache_folder() / "lexicon" / f"{voice.language}-{hashlib.sha256(version.encode()).hexdigest()[:16]}"
+
+
+def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
+    """The lexicon of *voice* with what *folder* has."""
+    lexicon = Lexicon(voice)
+    if folder is None or not (files := _files(folder)):
+        return lexicon
+    found = [(file, table) for file in files if (table := _read(file)) is not None]
+    if not found:
+        return lexicon
+    whole = pa.concat_tables([table for _, table in found]).group_by("word", use_threads=False)
+    answers = whole.aggregate([("reading", "min"), ("remarks", "min")]).rename_columns(_FILE.names)
+    if len(files) > _MANY and _write(answers, folder):
+        for file, _ in found:
+            file.unlink(missing_ok=True)
+    lexicon.learn([Answer(*row) for row in zip(*(answers.slice(0, MOST)[name].to_pylist() for name in _FILE.names), strict=True)])
+    return lexicon
+
+
+def keep(lexicon: Lexicon, folder: Path | None) -> None:
+    """Keep what *lexicon* asked since the last time, if it is worth a file."""
+    if folder is None or len(lexicon.asked) < _WORTH_A_FILE:
+        return
+    asked, lexicon.asked = lexicon.asked, []
+    if len(lexicon) <= MOST:
+        _write(pa.table([list(column) for column in zip(*asked, strict=True)], schema=_FILE), folder)
+
+
+def _files(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.glob(f"[!.]*{_SUFFIX}"))
+    except OSError:
+        return []
+
+
+def _read(file: Path) -> pa.Table | None:
+    try:
+        table = pq.read_table(file)
+    except (OSError, ValueError):  # Another process joined it with others, or it is damaged.
+        return None
+    return table.replace_schema_metadata() if table.schema.equals(_FILE) else None
+
+
+def _write(table: pa.Table, folder: Path) -> bool:
+    """Write *table* into *folder*; whether it could be done."""
+    table = table.sort_by("word")
+    words = table["word"].combine_chunks()
+    digest = hashlib.sha256(b"".join(bytes(buffer) for buffer in words.buffers() if buffer))
+    with contextlib.suppress(OSError, OutputError):
+        folder.mkdir(parents=True, exist_ok=True)
+        with whole_file(folder / f"{digest.hexdigest()[:16]}{_SUFFIX}") as temporary:
+            pq.write_table(table.cast(_FILE), temporary, compression="zstd")
+        return True
+    return False
