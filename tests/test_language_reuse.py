@@ -87,6 +87,14 @@ def test_the_share_of_text_leaves_silence_out():
     assert found.new.pairs[0] in {("_", "a"), ("a", "_")}
 
 
+def test_every_pair_says_where_it_comes_from_and_where_it_occurs():
+    text = Frequency.of([("a", "b", 6), ("b", "b", 2)])
+    found = reuse(records(xx=["a", "b"], yy=["b"]), "xx", ["yy"], {"text": text})
+    assert [(one.left, one.right, one.over, one.share) for one in found.pairs[:2]] == [("a", "b", "", 0.75), ("b", "b", "yy", 0.25)]
+    assert found.pairs[0].parts == ("possible", "own phones", "text")
+    assert len(found.pairs) == 8
+
+
 def test_a_language_without_phones_is_named():
     with pytest.raises(InputError, match="'zz' has no phones"):
         reuse(records(xx=["a"]), "xx", ["zz"], {})

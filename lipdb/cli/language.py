@@ -179,9 +179,10 @@ def check_language(options: Options, code: str, folder: Path | None, tidy: bool,
     type=click.Path(path_type=Path),
     help="A scan's .parquet, a .csv or .tsv of pairs, or a text; may be repeated. By default the language's sample sentences.",
 )
+@click.option("--pairs", is_flag=True, help="List every pair: where it comes from and what part of the texts it is.")
 @json_option
 @click.pass_obj
-def show_reuse(options: Options, code: str, donors: tuple[str, ...], corpora: tuple[Path, ...], as_json: bool) -> None:
+def show_reuse(options: Options, /, code: str, donors: tuple[str, ...], corpora: tuple[Path, ...], pairs: bool, as_json: bool) -> None:
     """Show which pairs language CODE takes over from others, which only it has, and how much of real text each part carries.
 
     Pairs with silence are counted apart. "inherited" are new pairs that begin with the curves of a coarser phone (kind_of).
@@ -205,6 +206,9 @@ def show_reuse(options: Options, code: str, donors: tuple[str, ...], corpora: tu
             for note in text.notes:
                 click.echo(f"lipdb: {text.name}: {note}", err=True)
         found = reuse(db.records, code, tuple(dict.fromkeys(donors)), texts)
+    if pairs:
+        print_listing([pair.to_row() for pair in found.pairs], as_json=as_json)
+        return
     if as_json:
         print_json(found.to_json())
         return

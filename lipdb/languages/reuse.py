@@ -69,11 +69,29 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
+class PairOrigin:
+    """A possible pair: the language it is taken *over* from (nothing when it is new), and the parts that it occurs in.
+
+    *share* is its part (0..1) of all texts together, pairs with ``_`` among the rest.
+    """
+
+    left: str
+    right: str
+    over: str
+    parts: tuple[str, ...]
+    share: float
+
+    def to_row(self) -> dict[str, Any]:
+        """Plain data for a listing."""
+        return {"left": self.left, "right": self.right, "from": self.over, "in": list(self.parts), "share": round(self.share, 6)}
+
+
+@dataclass(frozen=True, slots=True)
 class Reuse:
     """What *language* takes over from the languages *donors*: *own* are the common phones that only it has.
 
     *parts* begin with all pairs that are possible between the phones of all of them. *new* are the new pairs that occur
-    in the texts, most frequent first.
+    in the texts, most frequent first; *pairs* is every possible pair, most frequent first.
     """
 
     language: str
@@ -81,6 +99,7 @@ class Reuse:
     own: tuple[str, ...]
     parts: tuple[Part, ...]
     new: Frequency
+    pairs: tuple[PairOrigin, ...]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for a program."""
@@ -108,14 +127,26 @@ def reuse(records: Records, language: str, donors: Sequence[str], texts: Mapping
         raise InputError(f"language {empty!r} has no phones; `lipdb language list` shows those that there are")
     held = {donor: phones[donor] for donor in donors}
     own, every, kinds = phones[language], phones[language].union(*held.values()), Kinds.from_records(records)
-    named = [(POSSIBLE, _all_pairs(every)), (OWN, _all_pairs(own))]
+    named = {POSSIBLE: _all_pairs(every), OWN: _all_pairs(own)}
     within, edges = _syllable_pairs(records, language)
     if within:
-        named += [(WITHIN, within), (EDGES, edges), (SYLLABLES, within | edges)]
-    parts = [_part(name, pairs, held, kinds) for name, pairs in named]
+        named |= {WITHIN: within, EDGES: edges, SYLLABLES: within | edges}
+    parts = [_part(name, pairs, held, kinds) for name, pairs in named.items()]
     parts += [_part(name, text.counts, held, kinds, text) for name, text in texts.items()]
-    new = ((*pair, count) for text in texts.values() for pair, count in text.counts.items() if not _holder(pair, held))
-    return Reuse(language, tuple(donors), tuple(sorted(own.difference(*held.values()))), tuple(parts), Frequency.of(new))
+    named |= {name: frozenset(text.counts) for name, text in texts.items()}
+    together = Frequency.of((*pair, count) for text in texts.values() for pair, count in text.counts.items())
+    origins = [
+        PairOrigin(*pair, _holder(pair, held), tuple(name for name, held_in in named.items() if pair in held_in), together.share(pair))
+        for pair in frozenset().union(*named.values())
+    ]
+    return Reuse(
+        language,
+        tuple(donors),
+        tuple(sorted(own.difference(*held.values()))),
+        tuple(parts),
+        Frequency.of((*pair, count) for pair, count in together.counts.items() if not _holder(pair, held)),
+        tuple(sorted(origins, key=lambda one: (-one.share, one.left, one.right))),
+    )
 
 
 def _all_pairs(phones: Iterable[str]) -> frozenset[Pair]:
