@@ -7,10 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import lipdb
 from lipdb.coverage.compare import compare
 from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.report import Summary, plot, ranked
+from lipdb.coverage.gaps import gaps
+from lipdb.coverage.named import named_frequency, read_frequency
+from lipdb.coverage.report import Summary, by_curve, plot, ranked
 from lipdb.coverage.select import select
+from lipdb.coverage.sentences import sentences_of
 from lipdb.errors import InputError, OutputError
 
 PAIRS = st.tuples(st.sampled_from("abcd_"), st.sampled_from("abcd_"))
@@ -122,3 +126,84 @@ def test_a_list_of_the_most_frequent_pairs_is_compared_on_those_alone() -> None:
     assert np.isnan(told.distance)
     assert told.to_json()["total_variation"] is None
     assert told.differences[0].to_row() == {"pair": "a-b", "first": 50, "second": 40, "difference": -10}
+
+
+def test_a_table_of_counts_is_read_by_its_columns(tmp_path) -> None:
+    file = tmp_path / "counts.csv"
+    file.write_text("rank,from,to,count\n1,a,b,6\n2,_,a,3\n3,a,b,1\n")
+    assert dict(read_frequency(file).counts) == {("a", "b"): 7, ("_", "a"): 3}
+    assert dict(read_frequency(file, silence=False).counts) == {("a", "b"): 7}
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "complaint"),
+    [
+        ("counts.txt", "left,right,count\n", "no table of pairs"),
+        ("counts.csv", "left,right\na,b\n", "has the columns left, right"),
+        ("counts.csv", "left,right,count\na,b,many\n", "column count holds something that is no number"),
+        ("counts.csv", "left,right,count\n", "holds no pair of phones"),
+        ("counts.parquet", "left,right,count\n", "can't be read as a table"),
+    ],
+)
+def test_a_file_that_is_no_table_of_counts_says_so_in_one_line(tmp_path, name, content, complaint) -> None:
+    file = tmp_path / name
+    file.write_text(content)
+    with pytest.raises(InputError, match=complaint) as caught:
+        read_frequency(file)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_says_where_scans_are_listed(tmp_path) -> None:
+    with pytest.raises(InputError, match="lipdb coverage list"):
+        read_frequency(tmp_path / "nothing.parquet")
+
+
+def test_published_frequencies_are_named_by_their_table(db) -> None:
+    paper = named_frequency(db.records, "xu2013")
+    assert (len(paper), paper.whole, paper.share(("ah", "d"))) == (21, False, pytest.approx(0.0462))
+
+
+def test_lines_come_once_with_the_pairs_that_the_voice_says(db, tmp_path) -> None:
+    file = tmp_path / "lines.txt"
+    file.write_text("Bob\nBob\n你好\n")
+    lines = sentences_of([str(file)], db.voice("en"), db.phoneset("en"))
+    assert lines == [("Bob", {("_", "bmp"), ("bmp", "aa"), ("aa", "bmp"), ("bmp", "_")})]
+    assert sentences_of([str(file)], db.voice("en"), db.phoneset("en"), silence=False) == [("Bob", {("bmp", "aa"), ("aa", "bmp")})]
+    file.write_text("你好\n")
+    with pytest.raises(InputError, match="holds no line that en can say"):
+        sentences_of([str(file)], db.voice("en"), db.phoneset("en"))
+
+
+def test_the_sample_sentences_need_few_to_hold_every_pair(db, tmp_path) -> None:
+    file = tmp_path / "sample.txt"
+    file.write_text("".join(f"{key[0]}\n" for key in db.records["en/sentences.tsv"]))
+    lines = sentences_of([str(file)], db.voice("en"), db.phoneset("en"))
+    chosen = select(lines)
+    assert chosen[-1].covered == len({pair for _, pairs in lines for pair in pairs}) > 300
+    assert len(chosen) < len(lines) / 2
+
+
+def test_gaps_are_what_nobody_has_drawn_the_most_needed_first(db) -> None:
+    counts = {("ah", "d"): 6.0, ("d", "ah"): 3.0, ("l", "ow"): 1.0}
+    uses = db.uses(counts, language="en")
+    found = gaps(uses, minutes=30)
+    assert [(gap.use.pair, gap.percent, gap.hours) for gap in found] == [
+        (("ah", "d"), 60, 0.5), (("d", "ah"), pytest.approx(30), 1), (("l", "ow"), pytest.approx(10), 1.5),
+    ]  # fmt: skip
+    assert found[-1].covered == pytest.approx(100)
+    assert {gap.use.origin for gap in found} == {"generated"}
+    assert {gap.use.layer for gap in found} == {"common"}
+
+
+def test_a_pair_that_an_artist_drew_is_no_gap_any_more(tmp_path) -> None:
+    with lipdb.open(str(tmp_path / "own.db")) as own:
+        rows = [row for key, row in own.records["curves/facefx.tsv"].items() if key[:2] == ("ah", "d")]
+        with own.edit(author="anna") as edit:
+            for row in rows:
+                edit.put("curves/facefx.tsv", {**row, "keys": "0:0 0.5:0.3 1:0"})
+        counts = {("ah", "d"): 6.0, ("d", "ah"): 2.0}
+        assert [gap.use.pair for gap in gaps(own.uses(counts, language="en"))] == [("d", "ah")]
+        assert by_curve(own.uses(counts, language="en"))["origin"] == [
+            {"origin": "authored", "pairs": 1, "percent": 75.0},
+            {"origin": "generated", "pairs": 1, "percent": 25.0},
+        ]

@@ -65,7 +65,7 @@ def resolve(pairs: pa.Table, phoneset: PhoneSet, notation: str) -> Resolved:
         return Resolved(RESULT.empty_table(), FINDINGS.empty_table())
     codes = encoded.indices.to_numpy()
     left, right = codes[: len(pairs)], codes[len(pairs) :]
-    units, unknown = _units(labels, phoneset, notation)
+    units, unknown = units_of(labels, phoneset, notation)
     names = sorted({unit for row in units for unit in row})
     index = {unit: k for k, unit in enumerate(names)}
     first, last = (np.array([index[row[end]] for row in units]) for end in (0, -1))
@@ -76,8 +76,8 @@ def resolve(pairs: pa.Table, phoneset: PhoneSet, notation: str) -> Resolved:
     )
 
 
-def _units(labels: list[str], phoneset: PhoneSet, notation: str) -> tuple[list[list[Unit]], dict[str, str]]:
-    """What each label stands for, and why for those that no table knows."""
+def units_of(labels: list[str], phoneset: PhoneSet, notation: str) -> tuple[list[list[Unit]], dict[str, str]]:
+    """What each of *labels* stands for, and why for those that no table knows, which are mapped by articulation."""
     # A second each, and its index as the word: so it can be told which phones came of which label.
     edges = tuple(range(0, (len(labels) + 1) * MICROSECONDS, MICROSECONDS))
     raw = Schedule(edges, tuple(Phone(label, word=k) for k, label in enumerate(labels)), phoneset.language, notation)
