@@ -132,7 +132,7 @@ def test_upgrade_lists_conflicts_and_ends_with_6(lipdb, tmp_path):
     assert code == 6
     assert out == (
         "curves/facefx.tsv\tbmp aa PBM\tchanged by both sides; yours stays\n"
-        f"{tmp_path / 'a.db'}: schema 0002, 4 rows followed, 2 edited rows kept, 1 in conflict\n"
+        f"{tmp_path / 'a.db'}: schema 0003, 4 rows followed, 2 edited rows kept, 1 in conflict\n"
     )
     assert "rows were changed by both sides; yours stay: curves/facefx.tsv bmp aa PBM: theirs keys" in err
     code, out, _ = lipdb("upgrade", "--json")

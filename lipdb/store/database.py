@@ -25,6 +25,7 @@ from lipdb.store.failures import plain_errors
 from lipdb.store.history import Change, Revision, difference, read_changes, read_revisions, require_revision, state_at
 from lipdb.store.migrate import require_current, schema_of
 from lipdb.store.revisions import Present, newest_revision, present_rows
+from lipdb.store.scans import Scan, add_scan, read_scans
 from lipdb.store.setup import create, upgrade_tables
 from lipdb.store.shipped import Upgrade, merge_shipped, merged_digest, text_digest
 from lipdb.store.tables import SCHEMA, change, record
@@ -168,6 +169,23 @@ class Store:
         """The records as they were at revision *number*; 0 is the empty store."""
         with self._reading() as connection:
             return nested(state_at(connection, number))
+
+    # Scans
+
+    @property
+    def scans_folder(self) -> Path:
+        """Where results of scans are put, unless a person names a file: beside the database file, else in the user's data folder."""
+        return (Path(self.where).parent if is_file(self._url) else home()) / "scans"
+
+    def add_scan(self, scan: Scan) -> Scan:
+        """Register a scan of a corpus; the same with its number and the store's revision."""
+        with self._writing() as connection:
+            return add_scan(connection, scan)
+
+    def scans(self, language: str | None = None) -> list[Scan]:
+        """The scans of *language*, or all, newest first."""
+        with self._reading() as connection:
+            return read_scans(connection, language)
 
     # Text
 

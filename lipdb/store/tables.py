@@ -1,18 +1,18 @@
 """The tables of the store. They hold rows of curated data as text, so they are the same for every kind of fact.
 
 ``record`` is the present, ``revision`` and ``change`` are how it came to be, ``shipped`` is the text that shipped when
-it was last merged: the base of the three-way merge. Keys are JSON lists and cells JSON objects, as text, so that SQLite
-and PostgreSQL store, compare and return the same thing.
+it was last merged: the base of the three-way merge. ``scan`` says which corpora were counted, and where the counts are. Keys
+are JSON lists and cells JSON objects, as text, so that SQLite and PostgreSQL store, compare and return the same thing.
 """
 
 from __future__ import annotations
 
 import sqlalchemy as sa
 
-SCHEMA = "0002"
+SCHEMA = "0003"
 """The migration that this program works with. Older databases are upgraded, newer ones are refused."""
 
-OLDER_SCHEMAS = ("0001",)
+OLDER_SCHEMAS = ("0001", "0002")
 
 NAMING = {
     "ix": "ix_%(table_name)s_%(column_0_N_name)s",
@@ -71,6 +71,22 @@ fact = sa.Table(
     metadata,
     sa.Column("name", sa.Text, primary_key=True),
     sa.Column("value", sa.Text, nullable=False),
+)
+
+scan = sa.Table(
+    "scan",
+    metadata,
+    sa.Column("id", sa.Integer, primary_key=True),
+    sa.Column("time", sa.Text, nullable=False),
+    sa.Column("language", sa.Text, nullable=False, index=True),
+    sa.Column("mode", sa.Text, nullable=False),
+    sa.Column("corpus", sa.Text, nullable=False),
+    sa.Column("content", sa.Text, nullable=False),
+    sa.Column("counter", sa.Text, nullable=False),
+    sa.Column("mapping", sa.Text, nullable=False),
+    sa.Column("revision", sa.Integer, sa.ForeignKey("revision.id"), nullable=False),
+    sa.Column("path", sa.Text, nullable=False),
+    sa.Column("totals", sa.Text, nullable=False),
 )
 
 version = sa.Table("alembic_version", sa.MetaData(), sa.Column("version_num", sa.String(32), primary_key=True))
