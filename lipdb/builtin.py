@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 @hookimpl
 def lipdb_voices() -> Mapping[str, VoiceMaker]:
-    """espeak-ng for any language it speaks, pinyin for Mandarin, kana for Japanese."""
-    return {"espeak": _espeak, "kana": _kana, "pinyin": _pinyin}
+    """espeak-ng for any language it speaks, pinyin for Mandarin, kana for Japanese, Hangul for Korean."""
+    return {"espeak": _espeak, "hangul": _hangul, "kana": _kana, "pinyin": _pinyin}
 
 
 @hookimpl
@@ -44,6 +44,12 @@ def _pinyin(records: Records, language: str) -> Voice:
     from lipdb.speech.mandarin import pinyin_voice
 
     return pinyin_voice(records, language)
+
+
+def _hangul(records: Records, language: str) -> Voice:
+    from lipdb.speech.korean import hangul_voice
+
+    return hangul_voice(records, language)
 
 
 def _kana(records: Records, language: str) -> Voice:

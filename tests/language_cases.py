@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import lipdb
 
-OWN_NOTATION = ("cmn", "ja")
-"""Languages whose voices write the language's own notation; the others write espeak's labels."""
-
 
 def phones(db: lipdb.Database, language: str, text: str) -> list[str]:
     """The phones of *text* as the voice says it, pauses left out; a label that no table knows is an error."""
     phoneset = db.phoneset(language)
-    labels = [label for phrase in db.voice(language).phrases(text) for word in phrase for label in word]
-    notation = phoneset.symbols.own if language in OWN_NOTATION else "espeak"
-    parts = {label: phoneset.symbols.parts(label, notation) for label in labels}
+    voice = db.voice(language)
+    labels = [label for phrase in voice.phrases(text) for word in phrase for label in word]
+    parts = {label: phoneset.symbols.parts(label, voice.notation) for label in labels}
     assert all(parts.values()), [label for label, found in parts.items() if not found]
     return [phone for label in labels for phone in parts[label]]
 

@@ -38,10 +38,13 @@ class Breath(NamedTuple):
 
 
 class Word(NamedTuple):
-    """A word as it is *written*, and whether it is *joined* to the word in front, as by one accent."""
+    """A word as it is *written*; whether it is *joined* to the word in front, as by one accent; and *plain* text that espeak
+    is given instead of phonemes, for a word that it reads by itself.
+    """
 
     written: str
     joined: bool = False
+    plain: str = ""
 
 
 def speak(breaths: Sequence[Breath], words: Sequence[Word], *, voice: str, language: str, notation: str) -> Spoken:
@@ -78,7 +81,8 @@ def _respell(breaths: Iterable[Breath], words: Sequence[Word]) -> tuple[str, lis
             parts[-1] += word
         for part in parts:
             chunks.append((len(text), part))
-            text += f"[[{''.join(sign for sound in part for sign in sound.phonemes)}]] "
+            plain = words[part[0].word].plain
+            text += f"{plain or '[[' + '|'.join(sign for sound in part for sign in sound.phonemes) + ']]'} "
         text = f"{text.rstrip()}{FULL_STOP if mark == '.' else mark} "
     return text.rstrip(), chunks
 

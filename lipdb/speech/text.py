@@ -30,7 +30,7 @@ SCRIPTS: dict[str, tuple[str, ...]] = {
     "Jpan": ("CJK", "HIRAGANA", "KATAKANA", "KATAKANA-HIRAGANA", "LATIN"),
     "Khmr": ("KHMER",),
     "Knda": ("KANNADA",),
-    "Kore": ("HANGUL", "CJK"),
+    "Kore": ("HANGUL", "CJK", "LATIN"),
     "Laoo": ("LAO",),
     "Latn": ("LATIN",),
     "Mlym": ("MALAYALAM",),
