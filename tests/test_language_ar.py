@@ -24,6 +24,9 @@ import lipdb
         ("ثَلْج", "θ a l d͡ʒ"),
         ("كتاب", "k i t aː b"),
         ("٣", "θ a l aː θ a"),
+        ("٣٫٥", "θ a l aː θ a f aː sˤ i l x a m s a"),
+        ("٣٪", "θ a l aː θ a b i l m i ʔ a t"),
+        ("ڤيديو", "f iː d j uː"),
     ],
 )
 def test_words_have_the_phones_of_arabic(db: lipdb.Database, word: str, expected: str) -> None:

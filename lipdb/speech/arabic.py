@@ -1,6 +1,6 @@
-"""Arabic with vowel signs, spelt so that espeak-ng reads every sign of it.
+"""Arabic spelt so that espeak-ng reads every sign of it.
 
-What is written stays the same word; four habits of espeak-ng 1.52 are met, each observed by running it.
+What is written stays the same word; habits of espeak-ng 1.52 are met, each observed by running it.
 """
 
 from __future__ import annotations
@@ -9,6 +9,10 @@ import re
 
 from lipdb.speech.text import SHADDA_LAST
 
+# Letters of other languages that Arabic borrows or that keyboards put in, and the signs within numbers; espeak says nothing for
+# some and the name of the letter for others. V becomes f, which looks alike.
+_LETTERS = str.maketrans({"ڤ": "ف", "چ": "تش", "ک": "ك", "ی": "ي", "ھ": "ه", "ہ": "ه", "٫": ".", "٬": ","})
+_PER_CENT = re.compile("(?<=\\d)[%٪]")
 SHORT_VOWELS = "\u064b-\u0650"
 # Behind the article espeak doubles a sun letter by itself; with the shadda that is written there it would be threefold.
 _SUN_LETTER = re.compile("(?<!\\S)(ال[تثدذرزسشصضطظلن])\u0651")
@@ -19,6 +23,7 @@ _CLOSING_ALIF = re.compile(f"(?<=\u064f\u0648)\u0652?ا(?![\\w{SHORT_VOWELS}\u06
 
 
 def spelt_for_espeak(text: str) -> str:
-    """*text* with the shadda in front of its vowel, one less behind the article, and silent alifs marked or left out."""
+    """*text* with the shadda in front of its vowel, one less behind the article, silent alifs marked or left out, plain letters."""
+    text = _PER_CENT.sub("بِٱلْمِئَة", text.translate(_LETTERS))
     text = SHADDA_LAST.sub("\u0651\\1", text)
     return _CLOSING_ALIF.sub("", _SILENT_ALIF.sub("ٱ", _SUN_LETTER.sub("\\1", text)))

@@ -130,7 +130,7 @@ class EspeakVoice:
         # Most lines have a full stop only at their end: looking for it is quicker than the expression.
         ended = SENTENCE_END.sub(FULL_STOP, cleaned) if "." in cleaned[:-1] else cleaned
         spelt = respelt(ended, self.readings) if self.readings else ended
-        return ended, spelt_for_espeak(spelt) if self.script == "Arab" else spelt, notes
+        return ended, spelt_for_espeak(spelt) if self.name == "ar" else spelt, notes
 
     def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
         """The phones of *labels* (empty: a pause), of which each belongs to a word."""
