@@ -15,6 +15,8 @@ from lipdb.languages.new import new_language
 from lipdb.languages.precedent import judged, precedents
 from lipdb.languages.text import chosen, script_in, sentences_of, words_of
 from lipdb.languages.xsampa import xsampa
+from lipdb.phones.labels import read_label
+from lipdb.phones.phoneset import PhoneSet
 from lipdb.speech.espeak_list import espeak_voices, known_voice, letters_of, script_of
 
 # Written for these tests.
@@ -116,10 +118,14 @@ def test_labels_affricates_and_x_sampa_are_aliases_of_one_phone(make):
 
 def test_tone_and_length_are_no_phones_of_their_own(make):
     folder = make("vi").folder
-    toned = {symbol: row for (notation, symbol), row in rows(folder, "aliases").items() if notation == "espeak" and row["comment"]}
-    assert toned["aː2"]["phones"] == "a"
-    assert toned["aː2"]["comment"] == "Tone 2 of espeak"
+    labels = {symbol: row["phones"] for (notation, symbol), row in rows(folder, "aliases").items() if notation == "espeak"}
+    assert labels["aː"] == "a"
+    assert labels["aːɜ"] == "a"  # how espeak writes the third tone
+    assert not [label for label in labels if set(label) & set("0123456789")]
     assert not [phone for (phone,) in rows(folder, "phones") if set(phone) & set("ː0123456789ɜ")]
+    symbols = PhoneSet.from_records(read_folder(folder.parent), "vi").symbols
+    assert symbols.parts("aː6", "espeak") == ("a",)
+    assert read_label("aː6", "espeak").tone == 6
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,9 @@ from lipdb.phones.letters import LETTERS, LIPS, Letter
 from lipdb.phones.segments import read_segment, spelled
 
 _TONES = re.compile(r"(?<=.)[0-9]+$")
-# espeak writes its phonemes in ASCII and then every sign of them in IPA, the digit of the third tone too.
-_TONES_WITH_3 = re.compile(r"(?<=.)[0-9ɜ]+$")
+THIRD = "ɜ"
+"""How espeak writes the digit of the third tone: it turns every sign of its phonemes into IPA, tones too."""
+_TONES_WITH_3 = re.compile(rf"(?<=.)[0-9{THIRD}]+$")
 _LENGTH = re.compile("[ːˑ]")
 
 
@@ -27,6 +28,11 @@ class Reading:
     segments: tuple[str, ...]
     tone: str = ""
     strange: str = ""
+
+    @property
+    def bare(self) -> str:
+        """The label without its tone."""
+        return self.label.removesuffix(self.tone)
 
     @property
     def plain(self) -> bool:

@@ -10,7 +10,7 @@ from typing import Any
 
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row, key_of
-from lipdb.languages.labels import Reading, has_tones, read_espeak
+from lipdb.languages.labels import THIRD, Reading, has_tones, read_espeak
 from lipdb.languages.precedent import judged, precedents
 from lipdb.languages.rules import REVIEW
 from lipdb.languages.xsampa import xsampa
@@ -123,14 +123,18 @@ def phone_rows(proposed: Proposed, *, author: str, time: str) -> Iterator[dict[s
 
 
 def alias_rows(proposed: Proposed, records: Records) -> Iterator[dict[str, str]]:
-    """Rows of ``aliases.tsv``: espeak's labels as they were heard, affricates with a tie bar, and X-SAMPA."""
+    """Rows of ``aliases.tsv``: espeak's labels, affricates with a tie bar, and X-SAMPA."""
     there = {phone.ipa for phone in proposed.phones}
-    for reading in proposed.readings:
-        if there.issuperset(reading.segments):
-            comment = f"Tone {reading.tone.replace('ɜ', '3')} of espeak" if reading.tone else ""
-            if reading.strange:
-                comment = f"{REVIEW} read as {' '.join(reading.segments)}, but {reading.strange} is no IPA"
-            yield _alias("espeak", unicodedata.normalize("NFC", reading.label), reading.segments, "espeak", comment)
+    known = [reading for reading in proposed.readings if there.issuperset(reading.segments)]
+    for reading in known:
+        comment = f"{REVIEW} read as {' '.join(reading.segments)}, but {reading.strange} is no IPA" if reading.strange else ""
+        yield _alias("espeak", unicodedata.normalize("NFC", reading.bare), reading.segments, "espeak", comment)
+    # A tone that is written as a number is read as one; the third looks like a vowel, so it must be listed with every vowel.
+    for tone in sorted({reading.tone for reading in known if THIRD in reading.tone}):
+        for reading in known:
+            if read_segment(reading.segments[0]).letters[0].vowel:
+                comment = f"Tone {tone.replace(THIRD, '3')} of espeak"
+                yield _alias("espeak", unicodedata.normalize("NFC", reading.bare + tone), reading.segments, "espeak", comment)
     taken: set[str] = set()
     for phone in proposed.phones:
         letters = read_segment(phone.ipa).letters

@@ -49,7 +49,7 @@ def read_label(symbol: str, notation: str) -> Label:
 
     Stress is a mark in front (``ˈ ˌ``, SAMPA ``" %``, espeak ``' ,``) or ARPAbet's digit 0 to 2, which is read in small letters
     and with Kaldi's place in the word (``hh_B``) as well; tone is pinyin's digit 1 to
-    5 (0 counts as 5) or accent, or Chao letters; length is ``ː`` or ``:``.
+    5 (0 counts as 5) or accent, espeak's digits, or Chao letters; length is ``ː`` or ``:``.
     """
     text = unicodedata.normalize("NFC", symbol.strip())
     bare, stress = _take_stress(text, notation)
@@ -77,6 +77,9 @@ def _take_tone(text: str, notation: str) -> tuple[str, int]:
         letters = unicodedata.normalize("NFD", text)
         tone = next((_ACCENTS[sign] for sign in letters if sign in _ACCENTS), 0)
         return unicodedata.normalize("NFC", "".join(sign for sign in letters if sign not in _ACCENTS)), tone
+    if notation == "espeak" and (bare := text.rstrip("0123456789")) and (number := text[len(bare) :]):
+        # The number of the tone, as in Vietnamese; in Mandarin its contour.
+        return bare, int(number) if len(number) == 1 else _CONTOURS.get(number, 0)
     bare = text.rstrip("˥˦˧˨˩⁰¹²³⁴⁵")
     contour = text[len(bare) :].translate(_LETTERS)
     if not bare or not contour:
