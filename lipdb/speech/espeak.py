@@ -47,6 +47,7 @@ SENTENCE_END = re.compile(
     r"(?<!\bруб)(?<!\bкоп)(?<!\bтыс)(?<!\bмлн)(?<!\bмлрд)(?<!\bстр)(?<!\bтел)\.(?=[\"'”’»)]? [a-zß-ÿа-яё])"
 )
 WRITTEN = re.compile(r"\S+")
+SIGNS = "\"'“”‘’«»()[]{}<>.,;:!?¡¿。।॥،؛؟۔…–—-"
 EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。।॥،؛؟۔…–—-]+$")
 
 
@@ -150,13 +151,12 @@ def _phone(label: str, symbol: str, word: int) -> Phone:
 
 def respelt(text: str, readings: Mapping[str, str]) -> str:
     """*text* with every word that *readings* has, in small letters, spelt as they say, the signs around it kept."""
-
-    def spelt(token: re.Match[str]) -> str:
-        word = EDGE.sub("", token[0])
-        reading = readings.get(word.lower())
-        return token[0] if reading is None else token[0].replace(word, reading, 1)
-
-    return WRITTEN.sub(spelt, text)
+    tokens = text.split(" ")
+    for place, token in enumerate(tokens):
+        word = token.strip(SIGNS)
+        if (reading := readings.get(word.lower())) is not None:
+            tokens[place] = token.replace(word, reading, 1)
+    return " ".join(tokens)
 
 
 def unstressed(label: str) -> str:
