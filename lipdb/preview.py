@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from lipdb.sound import wav_bytes
 
 if TYPE_CHECKING:
     from lipdb.characters.character import Character
+    from lipdb.characters.mesh import Mesh
     from lipdb.performance import Performance
     from lipdb.schedule import Schedule
     from lipdb.sound import Sound
@@ -69,11 +71,16 @@ def _face(performance: Performance, link: Link) -> dict[str, Any]:
 
 def mesh_bytes(character: Character) -> bytes:
     """The character's mesh as GLB; the same character gives the same bytes. Raises `InputError` for one of pictures."""
-    from lipdb.characters.gltf_write import glb_bytes
-
     if character.mesh is None:
         raise InputError(f"character {character.name!r} is made of pictures; it has no mesh")
-    return glb_bytes(character.mesh)
+    return _glb(character.mesh)
+
+
+@lru_cache(maxsize=16)
+def _glb(mesh: Mesh) -> bytes:
+    from lipdb.characters.gltf_write import glb_bytes
+
+    return glb_bytes(mesh)
 
 
 def _spans(schedule: Schedule) -> dict[str, list[tuple[float, float, str]]]:
@@ -108,4 +115,3 @@ def _peaks(sound: Sound) -> np.ndarray:
     found = np.stack([rows.min(axis=1, initial=0), rows.max(axis=1, initial=0)], axis=1).astype(np.float64)
     largest = np.abs(found).max(initial=1.0)
     return np.asarray(np.rint(found * (127 / max(largest, 1.0))), dtype=np.int8)
-

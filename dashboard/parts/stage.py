@@ -41,11 +41,25 @@ def link(content: bytes, media: str) -> str:
     return str(get_instance().media_file_mgr.add(content, media, coordinates=str(hash(content))))
 
 
-def stage(performances: Sequence[Performance], *, key: str) -> float | None:
-    """Show *performances* of one line; the instant in seconds that the visitor has just clicked on, or None."""
+def stage(
+    performances: Sequence[Performance],
+    *,
+    key: str,
+    loop: tuple[float, float] | None = None,
+    autoplay: bool = False,
+    compact: bool = False,
+    marks: Sequence[tuple[float, float]] = (),
+) -> float | None:
+    """Show *performances* of one line; the instant in seconds that the visitor has just clicked on, or None.
+
+    *loop* is played over and over, at once with *autoplay*; *marks* are pointed out; *compact* has no lanes of poses.
+    """
     components = _components()
     if components is None:
         st.warning(MISSING)
         return None
-    answer = components["stage"](data=preview(performances, link), key=key, on_pick_change=lambda: None)
+    data = preview(performances, link)
+    options = {"loop": loop, "autoplay": autoplay, "compact": compact, "marks": list(marks)}
+    data |= {name: value for name, value in options.items() if value} | {"id": f"{data['id']} {options}"}
+    answer = components["stage"](data=data, key=key, on_pick_change=lambda: None)
     return answer.get("pick")

@@ -21,6 +21,14 @@ export interface StageData {
   poses: string[];
   weights: string;
   faces: FaceData[];
+  /** The stretch to play over and over, in seconds; the visitor may choose another. */
+  loop?: [number, number];
+  /** Begin to play as soon as there is something to see. */
+  autoplay?: boolean;
+  /** Smaller faces, and no lanes of poses. */
+  compact?: boolean;
+  /** Stretches of time to point out in the lanes, in seconds. */
+  marks?: [number, number][];
 }
 
 /** Weights of `names`, `frames` x `names.length`, at `fps` frames a second; frame k is at k / fps seconds. */

@@ -6,6 +6,7 @@ const NAMES = 84; // width of the column of names
 const HEIGHTS = { wave: 44, spans: 20, pose: 30, axis: 18 };
 /** Okabe and Ito's colours, which people with any kind of colour vision can tell apart. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f"];
+const MARKED = "#e69f0055";
 
 export interface LaneEvents {
   seek(time: number): void;
@@ -37,18 +38,24 @@ export class Lanes {
     this.moving.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
   }
 
-  show(data: StageData): void {
+  show(data: StageData, selection: [number, number] | null = null): void {
     this.data = data;
-    this.track = new Track(data.poses, floats(data.weights), data.fps);
+    this.track = data.compact ? new Track([], new Float32Array(0), data.fps) : new Track(data.poses, floats(data.weights), data.fps);
     this.wave = peaks(data.peaks);
     [this.from, this.to] = [0, Math.max(data.duration, 0.1)];
-    this.selection = null;
+    this.selection = selection;
     this.resize();
   }
 
   get height(): number {
     const { wave, spans, pose, axis } = HEIGHTS;
-    return axis + (this.wave.length ? wave : 0) + 3 * spans + this.track.names.length * pose;
+    return axis + (this.wave.length ? wave : 0) + this.rows.length * spans + this.track.names.length * pose;
+  }
+
+  /** The rows of spans that have anything to show. */
+  private get rows(): [string, Span[]][] {
+    const { words = [], phones = [], common = [] } = this.data ?? {};
+    return Object.entries({ words, phones, common }).filter(([, spans]) => spans.length);
   }
 
   resize(): void {
@@ -124,13 +131,17 @@ export class Lanes {
     pen.clearRect(0, 0, width, this.height);
     pen.font = "12px system-ui, sans-serif";
     pen.textBaseline = "middle";
+    for (const [start, end] of this.data.marks ?? []) {
+      pen.fillStyle = MARKED;
+      pen.fillRect(this.x(start), 0, this.x(end) - this.x(start), this.height);
+    }
     if (this.selection) {
       pen.fillStyle = this.colour("--st-primary-color", "#0072b2") + "22";
       pen.fillRect(this.x(this.selection[0]), 0, this.x(this.selection[1]) - this.x(this.selection[0]), this.height);
     }
     let top = this.axis(pen, ink, line);
     if (this.wave.length) top = this.waveform(pen, top, ink);
-    for (const [name, spans] of [["words", this.data.words], ["phones", this.data.phones], ["common", this.data.common]] as const) {
+    for (const [name, spans] of this.rows) {
       top = this.spans(pen, top, name, spans, ink, line);
     }
     this.track.names.forEach((name, k) => {
@@ -255,7 +266,7 @@ export class Lanes {
     pen.textAlign = "right";
     pen.textBaseline = "middle";
     let top = this.height - this.track.names.length * HEIGHTS.pose;
-    weights.forEach((weight) => {
+    weights.subarray(0, this.track.names.length).forEach((weight) => {
       if (weight >= 0.005) pen.fillText(weight.toFixed(2), NAMES - 4, top + HEIGHTS.pose / 2);
       top += HEIGHTS.pose;
     });

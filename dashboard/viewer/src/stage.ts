@@ -51,7 +51,7 @@ export class Stage {
   private frames = 0;
   private since = performance.now();
 
-  constructor(root: HTMLElement) {
+  constructor(private readonly root: HTMLElement) {
     root.tabIndex = 0;
     this.clock = new Clock(this.audio);
     this.faces.className = "faces";
@@ -139,15 +139,18 @@ export class Stage {
     this.component = component;
     const { data } = component;
     if (data.id === this.id) return;
+    const [begins, stays] = [!this.id, this.clock.duration === data.duration];
     this.id = data.id;
+    this.root.classList.toggle("compact", data.compact ?? false);
     this.trouble.textContent = "";
     this.track = new Track(data.poses, floats(data.weights), data.fps);
     this.now = new Float32Array(data.poses.length);
     this.clock.load(data.audio, data.duration);
-    this.clock.loop = null;
+    this.clock.loop = data.loop ?? (stays ? this.clock.loop : null);
     this.show(data.faces, data.fps);
-    this.lanes.show(data);
+    this.lanes.show(data, this.clock.loop);
     this.drawn = -1;
+    if (begins && data.autoplay) void this.clock.play();
   }
 
   private show(faces: FaceData[], fps: number): void {
