@@ -26,6 +26,7 @@ COMMANDS = {
     "explain": ("lipdb.cli.inspect:explain", "Show what made each weight at one instant."),
     "language": ("lipdb.cli.language:language", "List, show, make and check languages."),
     "character": ("lipdb.cli.character:character", "List, show and add characters."),
+    "coverage": ("lipdb.cli.coverage:coverage", "Count which phone pairs real text needs."),
     "curves": ("lipdb.cli.curves:curves", "Make the shared curves again from their parameters (targets/ and timing/)."),
     "db": ("lipdb.cli.db:db", "Look after the database: history, undo, text in and out."),
     "dashboard": ("lipdb.cli.dashboard:dashboard", "Open the dashboard in the browser."),

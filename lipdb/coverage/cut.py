@@ -15,9 +15,9 @@ import numpy as np
 
 from lipdb.coverage.findings import LONGEST_LINE
 
-BLOCK = 1 << 19
+BLOCK = 1 << 18
 """Bytes. Parts are multiples of it, so that however large they are, a corpus has one digest."""
-STEP = 1 << 18
+STEP = 1 << 17
 """Bytes that are read at once; fewer than a line may have."""
 _OVERLONG = re.compile(rb"([^\n]{%d})[^\n]+" % (LONGEST_LINE + 1))
 

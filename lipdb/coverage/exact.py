@@ -82,7 +82,7 @@ class ExactCounter:
 
     @property
     def size(self) -> int:
-        """Half a megabyte, about a second: short enough that two processes end together."""
+        """A quarter of a megabyte, about half a second: short enough that two processes end together."""
         return BLOCK
 
     @property
