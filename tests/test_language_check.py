@@ -286,6 +286,8 @@ def test_a_language_or_a_folder_that_is_not_there_is_one_line(folder, base):
         check_language("yy", folder, base=base)
     with pytest.raises(InputError, match="no such folder"):
         check_language("yy", folder / "nowhere", base=base)
+    with pytest.raises(InputError, match=r"'\.\./xx' is no code of a language"):
+        check_language("../xx", folder / "xx", base=base)
 
 
 @pytest.fixture

@@ -98,8 +98,8 @@ def new_language(
     folder = output or workspace_dir(options.phonesets)
     if not output and not folder.is_dir():
         with options.open(remind=False) as db:
-            db.store.dump(folder)
-        click.echo(f"lipdb: {folder}: made from the database, for you to edit", err=True)
+            revision = db.store.dump(folder)
+        click.echo(f"lipdb: {folder}: made from revision {revision} of the database, for you to edit", err=True)
     whole = (folder / "common.tsv").is_file()
     made = new_language(
         code,

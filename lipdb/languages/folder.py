@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +13,16 @@ from lipdb.errors import InputError
 
 SHARED = ("common.tsv", "ipa.tsv", "marks.tsv", "sources.tsv")
 """Shared tables that every language leans on: what is wrong there is wrong here."""
+
+
+CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
+"""The code of a language: ISO 639, with a word for a variety."""
+
+
+def require_code(code: str) -> None:
+    """Raise `InputError` when *code* can't be a language's."""
+    if not CODE.fullmatch(code):
+        raise InputError(f"{code!r} is no code of a language; take two or three small letters (ISO 639) such as pl, or pl_east")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,8 +51,9 @@ class LanguageFolder:
 def find_language(code: str, folder: Path) -> Path:
     """The folder that holds the folder of language *code*: *folder* itself, or the one above when *folder* is the language's.
 
-    Raises `InputError` when neither is so.
+    Raises `InputError` when neither is so, or *code* is none.
     """
+    require_code(code)
     if (folder / code).is_dir():
         return folder
     if folder.name == code and any(folder.glob("*.tsv")):

@@ -17,6 +17,7 @@ from lipdb.curated.folder import write_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError, OutputError, PhonesetError
+from lipdb.languages.folder import require_code
 from lipdb.languages.propose import NOTATION, Phone, alias_rows, phone_rows, propose_phones, table
 from lipdb.languages.sample import symbols_of
 from lipdb.languages.text import chosen, examples_for, script_in, sentences_of, words_of
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from lipdb.speech.espeak import EspeakVoice
     from lipdb.speech.voice import Phrases
 
-CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
 SCRIPT = re.compile(r"[A-Z][a-z]{3}")
 SENTENCES = 200
 NUMBERS = (*range(101), 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1_000_000)
@@ -107,10 +107,7 @@ def _sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
 
 
 def _require_free(code: str, folder: Path, records: Records) -> None:
-    if not CODE.fullmatch(code):
-        raise InputError(
-            f"{code!r} is no code of a language; take two or three small letters (ISO 639), such as pl, or pl_east for a variety"
-        )
+    require_code(code)
     if (folder / code).exists():
         raise InputError(f"{folder / code} is there already; edit it, or choose another code")
     if f"{code}/language.tsv" in records:
