@@ -119,7 +119,7 @@ def _off_glide(letter: Letter) -> Verdict:
 
 # How a diphthong begins and ends, and the class it has (Table 1: ay, aw, oy, ow, and eh for the vowel of ate).
 _DIPHTHONGS = {
-    "open i": "ay", "open u": "aw", "back i": "oy", "back y": "oy", "back u": "ow", "front i": "eh", "neutral u": "ow",
+    "open i": "ay", "open u": "aw", "back i": "oy", "back y": "oy", "back u": "ow", "centre u": "ow", "front i": "eh", "neutral u": "ow",
 }  # fmt: skip
 
 
@@ -127,7 +127,7 @@ def _start(letter: Letter) -> str:
     if not letter.vowel or letter.rhotic or letter.height < 0.2:
         return ""
     if letter.rounded:
-        return "back" if letter.back > 0.4 else ""
+        return "back" if letter.back > 0.7 else "centre" if letter.back > 0.4 else ""
     if letter.letter in "əɘɜɤ":
         return "neutral"
     return "front" if letter.back < 0.4 and letter.height < 0.75 else "open"

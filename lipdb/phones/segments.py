@@ -61,6 +61,12 @@ def _raised(letter: Letter) -> Letter:
     return _moved(letter, height=-_STEP)
 
 
+def _lowered(letter: Letter) -> Letter:
+    if letter.manner == "plosive" and letter.place == "bilabial":  # Lips that come close and do not shut, as in Spanish.
+        return replace(letter, manner="fricative")
+    return _moved(letter, height=_STEP)
+
+
 def _towards_schwa(letter: Letter) -> Letter:
     return _moved(letter, (0.5 - letter.height) * 0.2, (0.5 - letter.back) * 0.2)
 
@@ -76,7 +82,7 @@ def _labialised(by: str) -> Callable[[Letter], Letter]:
 
 _MARKS: dict[str, Callable[[Letter], Letter]] = {
     "\u031d": _raised,
-    "\u031e": lambda x: _moved(x, height=_STEP),
+    "\u031e": _lowered,
     "\u031f": lambda x: _moved(x, back=-0.25),
     **dict.fromkeys("\u0320\u0331", lambda x: _moved(x, back=0.25)),
     "\u0308": lambda x: _moved(x, back=(0.5 - x.back) / 2),
