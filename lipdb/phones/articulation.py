@@ -78,37 +78,37 @@ def _consonant(letter: Letter) -> Verdict:
     raise AssertionError(f"the last rule fits every consonant, {letter} too")
 
 
+# Rounded or not, highest height and lowest and highest backness (0..1), common phone, what would also do, confidence, reason;
+# the first that fits wins.
+_VowelRule = tuple[bool, float, float, float, str, str, float, str]
+_VOWEL_RULES: tuple[_VowelRule, ...] = (
+    (False, 0.25, 0.0, 0.7, "ih", "", 0.95, "close and unrounded"),
+    (False, 0.25, 0.7, 1.0, "ih", "w", 0.7, "close and unrounded, at the back"),
+    (False, 0.42, 0.0, 0.4, "eh", "", 0.95, "mid and unrounded, at the front"),
+    (False, 0.42, 0.4, 0.7, "eh", "ah", 0.75, "mid and unrounded, not quite at the front"),
+    (False, 0.75, 0.0, 0.4, "eh", "", 0.95, "mid and unrounded, at the front"),
+    (False, 0.90, 0.0, 1.0, "ah", "", 0.9, "between mid and open, unrounded"),
+    (False, 1.00, 0.0, 0.7, "aa", "ah", 0.75, "the jaw wide open; where /a/ is written the vowel is mostly central"),
+    (False, 1.00, 0.7, 1.0, "aa", "", 1.0, "the jaw wide open"),
+    (True, 0.25, 0.7, 1.0, "w", "", 0.95, "close and rounded, as in too"),
+    (True, 0.25, 0.4, 0.7, "w", "ue", 0.8, "close and rounded, further front"),
+    (True, 0.60, 0.0, 0.4, "ue", "", 0.85, "rounded at the front"),
+    (True, 0.90, 0.0, 0.4, "ue", "ao", 0.6, "rounded at the front, and open"),
+    (True, 0.42, 0.4, 1.0, "ow", "ao", 0.8, "mid and rounded, as in go"),
+    (True, 1.00, 0.7, 1.0, "ao", "ow", 0.9, "open and rounded, as in dog"),
+    (True, 1.00, 0.0, 0.7, "ao", "ue", 0.6, "open and rounded, not at the back"),
+)
+
+
 def _vowel(letter: Letter) -> Verdict:
-    common, other, confidence, reason = _rounded(letter) if letter.rounded else _unrounded(letter)
     if letter.rhotic:
-        common, other, confidence, reason = "er", "", 0.9, "an r-coloured vowel"
-    return Verdict(common, confidence * letter.sure, reason, letter.text, other)
-
-
-def _unrounded(letter: Letter) -> tuple[str, str, float, str]:
-    height, back = letter.height, letter.back
-    if height < 0.25:
-        return ("ih", "w", 0.7, "close and unrounded, at the back") if back > 0.7 else ("ih", "", 0.95, "close and unrounded")
-    if height > 0.9:
-        if back > 0.7:
-            return "aa", "", 1.0, "the jaw wide open"
-        return "aa", "ah", 0.75 + 0.2 * back, "the jaw wide open; where /a/ is written the vowel is mostly central"
-    if (height < 0.42 and back < 0.7) or (back < 0.4 and height < 0.75):
-        return "eh", "ah" if back > 0.2 else "", 0.95 - 0.5 * back, "mid and unrounded, at the front"
+        return Verdict("er", 0.9 * letter.sure, "an r-coloured vowel", letter.text)
     if letter.letter == "ɜ":
-        return "er", "ah", 0.6, "the vowel of fur where no r is said; elsewhere ah"
-    return "ah", "", 0.9, "between mid and open, unrounded"
-
-
-def _rounded(letter: Letter) -> tuple[str, str, float, str]:
-    height, back = letter.height, letter.back
-    if back < 0.4 and height < 0.9:
-        return "ue", "ao" if height > 0.6 else "", 0.9 - 0.5 * height, "rounded at the front"
-    if height < 0.25:
-        return ("w", "", 0.95, "close and rounded, as in too") if back > 0.7 else ("w", "ue", 0.8, "close and rounded, further front")
-    if height < 0.42:
-        return "ow", "ao", 0.8, "mid and rounded, as in go"
-    return ("ao", "ow", 0.9, "open and rounded, as in dog") if back > 0.7 else ("ao", "ue", 0.6, "open and rounded, not at the back")
+        return Verdict("er", 0.6 * letter.sure, "the vowel of fur where no r is said; elsewhere ah", letter.text, "ah")
+    for rounded, height, front, back, common, other, confidence, reason in _VOWEL_RULES:
+        if letter.rounded == rounded and letter.height <= height and front <= letter.back <= back:
+            return Verdict(common, confidence * letter.sure, reason, letter.text, other)
+    raise AssertionError(f"the rules fit every vowel, {letter} too")
 
 
 def _off_glide(letter: Letter) -> Verdict:
