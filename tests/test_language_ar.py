@@ -54,7 +54,9 @@ def test_words_look_as_they_are_said(db: lipdb.Database, word: str, expected: st
         ("ثُمَّ", "θ u m m a"),  # a vowel over a shadda, in either order
         ("السُّوق", "ʔ a s s uː q"),  # two s, not three
         ("بِالْبَيْت", "b i l b a i t"),  # an alif that is written but not said
+        ("بِالشَّمْس", "b i ʃ ʃ a m s"),
         ("وَارْفَعْ", "w a r f a ʕ"),
+        ("وَالَّذِي", "w a l l a ð iː"),
         ("وَاسِع", "w aː s i ʕ"),
         ("شَكَرُوا", "ʃ a k a r uː"),
     ],
