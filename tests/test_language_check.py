@@ -261,6 +261,18 @@ def test_a_phone_that_the_voice_does_not_say_in_its_example_is_a_note(folder, fo
     assert "xx/phones.tsv:11:19: the voice does not say 'P' in makua" in found(notes=True)
 
 
+def test_a_licence_that_no_source_has_is_a_note(folder, found):
+    edit(folder, "phones.tsv", "pua\t" + OWN, "pua\t" + OWN.replace("Apache", "Apach"))
+    assert found() == []
+    assert "xx/phones.tsv:11:39: 'Apach-2.0' is the licence of no source; did you mean 'Apache-2.0'?" in found(notes=True)
+
+
+def test_a_phone_whose_kind_is_not_that_of_its_ipa_is_a_note(folder, found):
+    edit(folder, "phones.tsv", "P\tconsonant", "P\tvowel")
+    assert found() == []
+    assert "xx/phones.tsv:11:3: review: p begins with a consonant, but the row says vowel" in found(notes=True)
+
+
 def test_a_phone_that_the_voice_can_not_say_is_a_note(folder, found):
     edit(folder, "phones.tsv", "W\tconsonant", "V\tconsonant\tv\tf\tWaikiki\t" + OWN + "\nW\tconsonant")
     assert found() == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterator
+from difflib import get_close_matches
 from itertools import groupby
 
 from lipdb.languages.folder import LanguageFolder
@@ -117,8 +118,9 @@ def _cut_in_two(table: dict[str, Parts], phoneset: PhoneSet) -> Iterator[tuple[s
 
 
 def _phones(folder: LanguageFolder) -> Iterator[Remark]:
-    """Rows that nobody has looked at, that articulation would map otherwise, or whose kind is not that of their IPA."""
+    """Rows that nobody has looked at, that articulation would map otherwise, whose kind is not that of their IPA or whose licence is new."""
     path, known = f"{folder.code}/phones.tsv", folder.records.get("ipa.tsv", {})
+    licences = {row["licence"] for row in folder.records.get("sources.tsv", {}).values()}
     for key, row in folder.rows("phones").items():
         if row["comment"].startswith(REVIEW):
             yield Remark(path, key, "comment", row["comment"], note=True)
@@ -132,8 +134,10 @@ def _phones(folder: LanguageFolder) -> Iterator[Remark]:
         elif row["kind"] in ("vowel", "consonant") and letters[0].vowel != (row["kind"] == "vowel"):
             other = "vowel" if letters[0].vowel else "consonant"
             yield Remark(path, key, "kind", f"{REVIEW} {row['ipa']} begins with a {other}, but the row says {row['kind']}", note=True)
-        if "GPL" in row["licence"].upper():
-            yield Remark(path, key, "licence", f"{row['licence']} does not let this row ship under Apache-2.0", note=True)
+        if row["licence"] not in licences:
+            near = get_close_matches(row["licence"], licences, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            yield Remark(path, key, "licence", f"{row['licence']!r} is the licence of no source{hint}", note=True)
 
 
 def _shown(parts: Parts) -> str:
