@@ -19,7 +19,14 @@ BLOCK = 1 << 18
 """Bytes. Parts are multiples of it, so that however large they are, a corpus has one digest."""
 STEP = 1 << 17
 """Bytes that are read at once; fewer than a line may have."""
-_OVERLONG = re.compile(rb"([^\n]{%d})[^\n]+" % (LONGEST_LINE + 1))
+
+
+def overlong(longest: int) -> re.Pattern[bytes]:
+    """Lines of more than *longest* bytes; the group is what is kept of them."""
+    return re.compile(rb"([^\n]{%d})[^\n]+" % (longest + 1))
+
+
+_OVERLONG = overlong(LONGEST_LINE)
 
 
 class Piece(NamedTuple):
