@@ -262,9 +262,9 @@ def test_a_phone_that_the_voice_does_not_say_in_its_example_is_a_note(folder, fo
 
 
 def test_a_licence_that_no_source_has_is_a_note(folder, found):
-    edit(folder, "phones.tsv", "pua\t" + OWN, "pua\t" + OWN.replace("Apache", "Apach"))
+    edit(folder, "phones.tsv", "bmp\tpua\t" + OWN, "bmp\tpua\t" + OWN.replace("Apache", "Apach"))
     assert found() == []
-    assert "xx/phones.tsv:11:39: 'Apach-2.0' is the licence of no source; did you mean 'Apache-2.0'?" in found(notes=True)
+    assert "xx/phones.tsv:11:38: 'Apach-2.0' is the licence of no source; did you mean 'Apache-2.0'?" in found(notes=True)
 
 
 def test_a_phone_whose_kind_is_not_that_of_its_ipa_is_a_note(folder, found):

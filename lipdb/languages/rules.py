@@ -118,7 +118,7 @@ def _cut_in_two(table: dict[str, Parts], phoneset: PhoneSet) -> Iterator[tuple[s
 
 
 def _phones(folder: LanguageFolder) -> Iterator[Remark]:
-    """Rows that nobody has looked at, that articulation would map otherwise, whose kind is not that of their IPA or whose licence is new."""
+    """Rows that wait for review, that articulation would map otherwise, or whose kind or licence is odd."""
     path, known = f"{folder.code}/phones.tsv", folder.records.get("ipa.tsv", {})
     licences = {row["licence"] for row in folder.records.get("sources.tsv", {}).values()}
     for key, row in folder.rows("phones").items():
