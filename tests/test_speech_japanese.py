@@ -162,6 +162,11 @@ def test_every_kana_is_said_whole() -> None:
         assert sum(not phone.silent for phone in schedule.phones) >= sum(len(VOICE.syllables.phones[kana]) for kana in part) - 4
 
 
+def test_a_text_of_any_length_is_read() -> None:
+    words = sum(len(phrase) for phrase in VOICE.phrases("私は今日も学校へ行きます" * 300))
+    assert words == 8 * 300
+
+
 def test_kana_are_read_without_the_extra(kana_only: None) -> None:
     assert _said("とうきょう は いい！") == "_ t o: ky o: w a i: _"
     assert VOICE.reader.read("がっこう へ、").tokens[1:] == [japanese_words.Word("へ", "エ"), Pause(",")]

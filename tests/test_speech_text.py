@@ -67,6 +67,11 @@ def test_a_word_too_long_for_the_voice_is_cut_in_pieces_with_a_note():
     assert clean("pneumonoultramicroscopicsilicovolcanoconiosis").notes == ()
 
 
+def test_writing_without_spaces_is_left_whole():
+    for text in ("私は今日も学校へ行きます" * 10, "我们今天去学校" * 20):
+        assert clean(text) == (text, ())
+
+
 def test_colours_of_a_terminal_are_no_text():
     assert clean("\x1b[31mred\x1b[0m") == ("red", ())
 

@@ -19,7 +19,7 @@ from lipdb.phones.syllables import Syllables
 from lipdb.speech import libespeak, sounds
 from lipdb.speech.espeak import SETTINGS, language_row
 from lipdb.speech.japanese_words import PACKAGE, JapaneseReader, Pause, Token, Word
-from lipdb.speech.kana import Mora, morae, sounds_of
+from lipdb.speech.kana import LENGTH, NASAL, Mora, morae, sounds_of
 from lipdb.speech.sounds import Breath
 from lipdb.speech.text import check_script, clean
 from lipdb.speech.voice import Phrases, Spoken
@@ -95,17 +95,22 @@ class KanaVoice:
         return tokens, notes
 
     def _sounding(self, tokens: Iterable[Token]) -> list[Token]:
-        """*tokens*, with a word that has no vowel of its own, such as っ or ー, as part of the word in front of it."""
+        """*tokens*, with a word that has no sound of its own, such as っ or ー, as part of the word in front of it, else behind."""
         found: list[Token] = []
         for token in tokens:
-            if isinstance(token, Word) and not any(mora.core.isascii() for mora in morae(token.kana, self.syllables.phones, 0)):
-                if found and isinstance(last := found[-1], Word):
-                    found[-1] = last._replace(written=last.written + token.written, kana=last.kana + token.kana)
-                elif any(morae(token.kana, self.syllables.phones, 0)) and token.kana.strip("ー"):
-                    found.append(token)
+            last = found[-1] if found else None
+            if isinstance(token, Word) and isinstance(last, Word) and not (self._sounds(token) and self._sounds(last)):
+                found[-1] = Word(last.written + token.written, last.kana + token.kana, last.joined)
             else:
                 found.append(token)
-        return found
+        return [
+            token
+            for token in found
+            if not isinstance(token, Word) or any(mora.core != LENGTH for mora in morae(token.kana, self.syllables.phones, 0))
+        ]
+
+    def _sounds(self, word: Word) -> bool:
+        return any(mora.core == NASAL or mora.core.isascii() for mora in morae(word.kana, self.syllables.phones, 0))
 
     def _breaths(self, tokens: Iterable[Token]) -> Iterator[Breath]:
         row, number = list[Mora](), 0

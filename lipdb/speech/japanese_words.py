@@ -17,6 +17,7 @@ from contextlib import redirect_stdout
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib import import_module
+from itertools import chain
 from typing import Any, NamedTuple
 
 from lipdb.errors import MissingToolError
@@ -28,6 +29,8 @@ PUNCTUATION = {
 }  # fmt: skip
 _READING = threading.Lock()
 _KANA_TOKEN = re.compile(rf"(?P<name>\0\0)|(?P<kana>[{HIRAGANA}{KATAKANA}ー]+)|\S")
+# The dictionary's library takes 8,192 bytes at most; a sentence at a time is quicker, too.
+_SENTENCE = re.compile('[^。！？!?]{1,1000}(?:[。！？!?]+[」』）)”"’】]*)?|[。！？!?]+')
 NAME = "田中"
 """Stands for a word of the table while the dictionary reads the words around it."""
 # Particles that are said otherwise than they are written, when they stand alone.
@@ -87,16 +90,18 @@ class JapaneseReader:
         """The tokens of *text*. Raises `MissingToolError` where it takes more than kana and the extra is not installed."""
         for pattern, spelled in _WRITTEN_OUT:
             text = pattern.sub(spelled, text)
-        given = {match.span(): self.readings[match[0]] for match in self._words.finditer(text)}
-        found = _by_dictionary(text, given) if openjtalk() else _kana_only(text, given)
         unread: list[str] = []
         tokens: list[Token] = []
-        for token in found:
+        for token in chain.from_iterable(map(self._tokens, _SENTENCE.findall(text))):
             if isinstance(token, Word) and not token.kana:
                 unread.append(token.written)
             else:
                 tokens.append(token)
         return JapaneseText(tokens, tuple(dict.fromkeys(unread)))
+
+    def _tokens(self, sentence: str) -> Iterator[Token]:
+        given = {match.span(): self.readings[match[0]] for match in self._words.finditer(sentence)}
+        return _by_dictionary(sentence, given) if openjtalk() else _kana_only(sentence, given)
 
     @cached_property
     def _words(self) -> re.Pattern[str]:

@@ -49,7 +49,8 @@ KASHIDA = "\u0640"
 # NFC sorts an Arabic short vowel in front of the shadda; espeak knows them only as they are typed, shadda first, and drops the vowel.
 SHADDA_LAST = re.compile("([\u064b-\u0650])\u0651")
 _SHADDA = "\u0651"
-_LONG = re.compile(rf"[^\W\d_]{{{LONGEST_WORD + 1},}}")
+# Chinese and Japanese put no spaces between words, and their voices find the words themselves.
+_LONG = re.compile(rf"[^\W\d_ぁ-ヿ㐀-䶿一-鿿]{{{LONGEST_WORD + 1},}}")
 _PLAIN: set[str] = set()
 _ALLOWED: dict[str, set[str]] = {}
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
