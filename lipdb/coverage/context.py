@@ -122,7 +122,7 @@ class Heard:
     before: Counter[tuple[int, bool]]
     behind: Counter[tuple[int, bool]]
 
-    def add(self, words: Numbers, marked: NDArray[np.bool_], labels: Numbers, owners: Sequence[int], table: Readings) -> None:
+    def add(self, words: Places, marked: NDArray[np.bool_], labels: Numbers, owners: Sequence[int], table: Readings) -> None:
         """Add one line: its *words*, whether the gap behind each is *marked* as a pause, and whose each label said is."""
         runs: list[list[int]] = [[] for _ in words]
         paused = [False] * len(words)

@@ -13,14 +13,13 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 
 from lipdb.coverage.context import Context, learn
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, SAMPLE, Counts, Lines
 from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.findings import CONTROLS, EMOJI, NO_WORDS
 from lipdb.coverage.forms import Forms
-from lipdb.coverage.lexicon import REMARKS, Masks, mask_of
+from lipdb.coverage.lexicon import REMARKS, Lexicon, Masks, mask_of
 from lipdb.coverage.lexicon_files import MOST, keep, open_lexicon
 from lipdb.coverage.lines import shown
 from lipdb.coverage.running import LEFT_OUT, Running, running
@@ -34,12 +33,11 @@ VERSION = 1
 """Change it with anything that changes counts of the same labels."""
 SIZE = 1 << 24
 FOLDS = 8
-_LOOKED_AT = 24  # Bytes of each end of a line: enough to tell lines apart.
-# Bytes of a corpus, and the share of its lines that is counted both ways: some 2,000 lines or more, a tenth of the time or less.
-_SHARES = ((1 << 20, 4), (1 << 24, 16), (1 << 28, 256), (0, 1024))
+_LOOKED_AT = 8  # Bytes at the start and the end of a line: enough to tell lines apart.
+_MIX = np.uint64(0xD6E8FEB86659FD93)
+# Bytes of a corpus, and the share of its lines that is counted both ways: some thousands of them.
+_SHARES = ((1 << 20, 8), (1 << 22, 32), (1 << 24, 128), (1 << 26, 512), (1 << 28, 1024), (0, 4096))
 _NOT_SAID = LEFT_OUT | np.uint32(mask_of((NO_WORDS,)))
-_UNREAD = r"[\p{So}\p{Cc}\p{Co}]"
-"""Signs that are not read, and some that only look so."""
 
 
 def fast_counter(voice: Voice, sentences: Sequence[str], *, size: int = 0, folder: Path | None = None) -> FastCounter:
@@ -49,7 +47,7 @@ def fast_counter(voice: Voice, sentences: Sequence[str], *, size: int = 0, folde
     the voice are kept in *folder*; none, and they are not kept.
     """
     share = next(share for limit, share in _SHARES if (size and size <= limit) or not limit)
-    return FastCounter(voice, learn(open_lexicon(voice, folder), sentences), share, folder)
+    return FastCounter(voice, learn(Lexicon(voice), sentences), share, folder)
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ class FastCounter:
         """The pairs of the lines that are counted both ways."""
         keys = _line_keys(lines.texts)
         chosen = np.flatnonzero(keys % np.uint64(self.share) == 0)
-        fold = (keys[chosen] >> np.uint64(32)) % np.uint64(FOLDS)
+        fold = (keys[chosen] >> np.uint64(24)) % np.uint64(FOLDS)
         order = np.argsort(fold, kind="stable")
         folded = Lines(lines.texts.take(pa.array(chosen[order])), fold[order].astype(np.int32), tuple(map(str, range(FOLDS))))
         exact = ExactCounter(self.voice).count(folded).pairs
@@ -126,19 +124,19 @@ def _zeros(table: pa.Table) -> pa.Array:
 
 
 def _line_keys(texts: pa.StringArray) -> Keys:
-    """A key for each line by what is at its ends, and by its length."""
+    """A key for each line by its length and some of its bytes."""
     raw, starts, ends = spans_of(texts)
-    tails = keys_of(raw, np.maximum(starts, ends - _LOOKED_AT), ends)
-    heads = keys_of(raw, starts, np.minimum(ends, starts + _LOOKED_AT))
-    mixed = (heads ^ (tails >> np.uint64(1))) + (ends - starts).astype(np.uint64)
-    keys: Keys = mixed ^ (mixed >> np.uint64(29))
+    heads = keys_of(raw, starts, np.minimum(starts + _LOOKED_AT, ends))
+    tails = keys_of(raw, np.maximum(ends - _LOOKED_AT, starts), ends)
+    mixed = (heads ^ (tails >> np.uint64(32))) + tails + (ends - starts).astype(np.uint64)
+    keys: Keys = ((mixed ^ (mixed >> np.uint64(32))) * _MIX) >> np.uint64(16)
     return keys
 
 
 def _with_lines(lines: Lines, found: Running) -> Masks:
     """The remarks on every line: those on its words, signs that are not read, and that there is nothing to say."""
     remarks = found.remarks.copy()
-    for line in np.flatnonzero(pc.match_substring_regex(lines.texts, _UNREAD).to_numpy(zero_copy_only=False)).tolist():
+    for line in found.unread.tolist():
         remarks[line] |= np.uint32(mask_of(_unread(lines.texts[line].as_py())))
     spoken = np.zeros(len(lines.texts), bool)
     spoken[found.line] = True

@@ -14,45 +14,45 @@ from lipdb.coverage.readings import Numbers
 from lipdb.coverage.running import FLOWS, PAUSES, Running
 from lipdb.coverage.words import cut
 
+# What a word is to its neighbours: `VOWEL` or `CONSONANT` to the one in front, and these.
+_FOLLOWS, _PAUSES_BEFORE, _FLOWS_AFTER = 3, 4, 8
+
 
 class Forms:
     """The readings of a lexicon's words by what follows them, as *context* says."""
 
     def __init__(self, lexicon: Lexicon, context: Context) -> None:
         self.lexicon = lexicon
-        self._forms = _numbers(lexicon, [text for text, _, _ in context.readings]) * FOLLOWING
-        self._forms += np.array([following for _, following, _ in context.readings], np.int64)
-        self._readings = lexicon.readings.number([reading for _, _, reading in context.readings])
-        self._before = _numbers(lexicon, context.pauses_before)
-        self._after = _numbers(lexicon, context.flows_after)
-        self._grown = self._grow()
+        following = np.array([following for _, following, _ in context.readings], np.int64)
+        self._learned = _numbers(lexicon, [text for text, _, _ in context.readings]) * FOLLOWING + following
+        self._learned_readings = lexicon.readings.number(pa.array([reading for _, _, reading in context.readings], pa.string()))
+        self._pauses = _numbers(lexicon, [*context.pauses_before, *context.flows_after])
+        self._kinds = np.repeat(np.array([_PAUSES_BEFORE, _FLOWS_AFTER], np.uint8), [len(context.pauses_before), len(context.flows_after)])
+        self._readings_of: Numbers = np.zeros(0, np.int32)
+        self._traits: NDArray[np.uint8] = np.zeros(0, np.uint8)
 
     def said(self, found: Running) -> tuple[Numbers, NDArray[np.uint8]]:
         """The reading of every word of *found*, and what is behind it when it is said."""
-        reading, follows, before, after = self._current()
-        words, behind = found.words, found.behind
-        if self._before.size or self._after.size:
-            opens = np.append(before[words[1:]] & (behind[:-1] == FLOWS), False) if len(words) else np.zeros(0, bool)
-            behind = np.where(opens, PAUSES, np.where(after[words] & (behind == PAUSES), FLOWS, behind)).astype(np.uint8)
-        following = np.full(len(words), PAUSE, np.int32)
-        following[:-1] = np.where(behind[:-1] == FLOWS, follows[words[1:]], PAUSE)
-        return reading[words * FOLLOWING + following], behind
+        if len(self._readings_of) < len(self.lexicon) * FOLLOWING:
+            self._grow()
+        traits, behind = self._traits[found.words], found.behind
+        if self._pauses.size:
+            opens = (traits[1:] & _PAUSES_BEFORE) * (behind[:-1] == FLOWS)
+            goes_on = (traits & _FLOWS_AFTER) * (behind == PAUSES)
+            behind = np.where(goes_on, FLOWS, behind)
+            behind[:-1][opens > 0] = PAUSES
+        following = np.full(len(behind), PAUSE, np.uint8)
+        following[:-1] = (traits[1:] & _FOLLOWS) * (behind[:-1] == FLOWS)
+        return self._readings_of[found.words * FOLLOWING + following], behind
 
-    def _current(self) -> tuple[Numbers, NDArray[np.uint8], NDArray[np.bool_], NDArray[np.bool_]]:
-        if len(self._grown[1]) < len(self.lexicon):
-            self._grown = self._grow()
-        return self._grown
-
-    def _grow(self) -> tuple[Numbers, NDArray[np.uint8], NDArray[np.bool_], NDArray[np.bool_]]:
-        """Arrays for all words that the lexicon has by now: readings (three a word), what each is to the word in front, pauses."""
+    def _grow(self) -> None:
+        """Make arrays for all words that the lexicon has by now."""
         count, table = len(self.lexicon), self.lexicon.readings
         alone = self.lexicon.reading[:count]
-        reading = np.repeat(alone, FOLLOWING)
-        reading[self._forms] = self._readings
-        follows = np.where(table.vowels[table.first[alone]], VOWEL, CONSONANT).astype(np.uint8)
-        before, after = np.zeros(count, bool), np.zeros(count, bool)
-        before[self._before], after[self._after] = True, True
-        return reading, follows, before, after
+        self._readings_of = np.repeat(alone, FOLLOWING)
+        self._readings_of[self._learned] = self._learned_readings
+        self._traits = np.where(table.vowels[table.first[alone]], VOWEL, CONSONANT).astype(np.uint8)
+        np.bitwise_or.at(self._traits, self._pauses, self._kinds)
 
 
 def _numbers(lexicon: Lexicon, texts: Sequence[str]) -> NDArray[np.int64]:

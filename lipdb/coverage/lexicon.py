@@ -6,18 +6,19 @@ scans (`lipdb.coverage.lexicon_files`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
+import pyarrow as pa
 from numpy.typing import NDArray
 
 from lipdb.coverage.codes import UNKNOWN, Codes, Keys
 from lipdb.coverage.exact import Speaker
 from lipdb.coverage.findings import NO_WORDS, REASONS
 from lipdb.coverage.readings import Numbers, Readings
-from lipdb.coverage.words import Words, spans
+from lipdb.coverage.words import Words, each_a_word
 from lipdb.schedule import SILENCE
 from lipdb.speech.voice import Voice
 
@@ -38,12 +39,8 @@ BREAK = f" {SILENCE} "
 """Between the phrases of a reading."""
 
 
-class Answer(NamedTuple):
-    """What a voice says to *word*: labels between spaces, ``_`` where it pauses; and a mask of `REMARKS`."""
-
-    word: str
-    reading: str
-    remarks: int
+ANSWERS = pa.schema([("word", pa.string()), ("reading", pa.string()), ("remarks", pa.int64())])
+"""What a voice says to words: labels between spaces, ``_`` where it pauses; and a mask of `REMARKS`."""
 
 
 class Spelled(NamedTuple):
@@ -64,8 +61,9 @@ class Lexicon:
         self.readings = Readings()
         self.reading: Numbers = np.zeros(0, np.int32)
         self.remarks: Masks = np.zeros(0, np.uint32)
+        self.unusual: NDArray[np.bool_] = np.zeros(0, bool)
         self.pauses: NDArray[np.bool_] = np.zeros(0, bool)
-        self.asked: list[Answer] = []
+        self.asked = ANSWERS.empty_table()
         self.speaker = Speaker(voice)
         self._frame, self._beside = _FRAMES.get(voice.script, ""), _BESIDE.get(voice.script, "3")
         self._words, self._gaps = Codes(), Codes()
@@ -73,17 +71,18 @@ class Lexicon:
     def __len__(self) -> int:
         return len(self._words)
 
-    def words(self, words: Words) -> Numbers:
+    def words(self, words: Words) -> NDArray[np.int64]:
         """The numbers of *words*; the voice is asked for those that are new."""
         keys = words.keys()
         numbers = self._words.find(keys)
         if (new := np.flatnonzero(numbers == UNKNOWN)).size:
             places = _first(keys, new)
             answers = [self._ask(words.word(place)) for place in places.tolist()]
-            self._admit(keys[places], answers)
-            self.asked += answers
+            asked = pa.table([list(column) for column in zip(*answers, strict=True)], schema=ANSWERS)
+            self.learn(asked)
+            self.asked = pa.concat_tables([self.asked, asked])
             numbers[new] = self._words.find(keys[new])
-        return numbers
+        return numbers.astype(np.int64)  # numpy takes by nothing else
 
     def gaps(self, words: Words, places: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Whether the voice pauses in the gaps at *places*."""
@@ -97,14 +96,13 @@ class Lexicon:
             numbers[new] = self._gaps.find(keys[new])
         return self.pauses[numbers]
 
-    def learn(self, answers: Sequence[Answer]) -> None:
-        """Take over *answers* of the same voice, each to a word that is new."""
-        self._admit(spans([answer.word for answer in answers]).keys(), answers)
-
-    def _admit(self, keys: Keys, answers: Sequence[Answer]) -> None:
-        self.reading = np.append(self.reading, self.readings.number([answer.reading for answer in answers]))
-        self.remarks = np.append(self.remarks, np.array([answer.remarks for answer in answers], np.uint32))
-        self._words.add(keys)
+    def learn(self, answers: pa.Table) -> None:
+        """Take over *answers* of the same voice, a table of `ANSWERS`, each to a word that is new."""
+        words, readings, remarks = (answers[name].combine_chunks() for name in ANSWERS.names)
+        self.reading = np.append(self.reading, self.readings.number(readings))
+        self.remarks = np.append(self.remarks, remarks.to_numpy().astype(np.uint32))
+        self.unusual = (self.remarks != 0) | (self.reading == 0)
+        self._words.add(each_a_word(words).keys())
 
     def said(self, text: str) -> Spelled:
         """*text* as the voice says it in running speech."""
@@ -113,11 +111,11 @@ class Lexicon:
         phrases = [" ".join(run) for sounds, run in groupby(labels, key=lambda label: label != SILENCE) if sounds]
         return Spelled(phrases, mask_of(said.reasons))
 
-    def _ask(self, word: str) -> Answer:
+    def _ask(self, word: str) -> tuple[str, str, int]:
         framed = bool(self._frame) and word.isascii()
         phrases, remarks = self.said(self._frame.format(word) if framed else word)
         # A line may have other words.
-        return Answer(word, BREAK.join(phrases[1:-1] if framed else phrases), remarks & ~mask_of((NO_WORDS,)))
+        return word, BREAK.join(phrases[1:-1] if framed else phrases), remarks & ~mask_of((NO_WORDS,))
 
 
 def mask_of(reasons: Iterable[str]) -> int:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from lipdb.coverage.lexicon import Answer, Lexicon
+from lipdb.coverage.lexicon import ANSWERS, Lexicon
 from lipdb.errors import OutputError
 from lipdb.files import whole_file
 from lipdb.speech.cache import cache_folder
@@ -23,9 +23,8 @@ from lipdb.speech.voice import Voice
 FORMAT = 1
 MOST = 2_000_000
 """Words. A lexicon that has more is given up for an empty one, and none are kept beyond, whatever people write."""
-_WORTH_A_FILE = 2000  # Answers: fewer are sooner asked for again than opened.
+_WORTH_AANSWERS = 2000  # Answers: fewer are sooner asked for again than opened.
 _MANY = 16
-_FILE = pa.schema([("word", pa.string()), ("reading", pa.string()), ("remarks", pa.int64())])
 _SUFFIX = ".parquet"
 
 
@@ -43,22 +42,24 @@ def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
     found = [(file, table) for file in files if (table := _read(file)) is not None]
     if not found:
         return lexicon
-    whole = pa.concat_tables([table for _, table in found]).group_by("word", use_threads=False)
-    answers = whole.aggregate([("reading", "min"), ("remarks", "min")]).rename_columns(_FILE.names)
+    answers = pa.concat_tables([table for _, table in found])
+    if len(found) > 1:
+        once = answers.group_by("word", use_threads=False).aggregate([("reading", "min"), ("remarks", "min")])
+        answers = once.rename_columns(ANSWERS.names)
     if len(files) > _MANY and _write(answers, folder):
         for file, _ in found:
             file.unlink(missing_ok=True)
-    lexicon.learn([Answer(*row) for row in zip(*(answers.slice(0, MOST)[name].to_pylist() for name in _FILE.names), strict=True)])
+    lexicon.learn(answers.slice(0, MOST))
     return lexicon
 
 
 def keep(lexicon: Lexicon, folder: Path | None) -> None:
     """Keep what *lexicon* asked since the last time, if it is worth a file."""
-    if folder is None or len(lexicon.asked) < _WORTH_A_FILE:
+    if folder is None or len(lexicon.asked) < _WORTH_AANSWERS:
         return
-    asked, lexicon.asked = lexicon.asked, []
     if len(lexicon) <= MOST:
-        _write(pa.table([list(column) for column in zip(*asked, strict=True)], schema=_FILE), folder)
+        _write(lexicon.asked, folder)
+    lexicon.asked = ANSWERS.empty_table()
 
 
 def _files(folder: Path) -> list[Path]:
@@ -73,7 +74,7 @@ def _read(file: Path) -> pa.Table | None:
         table = pq.read_table(file)
     except (OSError, ValueError):  # Another process joined it with others, or it is damaged.
         return None
-    return table.replace_schema_metadata() if table.schema.equals(_FILE) else None
+    return table.replace_schema_metadata() if table.schema.equals(ANSWERS) else None
 
 
 def _write(table: pa.Table, folder: Path) -> bool:
@@ -84,6 +85,6 @@ def _write(table: pa.Table, folder: Path) -> bool:
     with contextlib.suppress(OSError, OutputError):
         folder.mkdir(parents=True, exist_ok=True)
         with whole_file(folder / f"{digest.hexdigest()[:16]}{_SUFFIX}") as temporary:
-            pq.write_table(table.cast(_FILE), temporary, compression="zstd")
+            pq.write_table(table.cast(ANSWERS), temporary, compression="zstd")
         return True
     return False

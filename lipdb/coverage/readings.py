@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from lipdb.phones.segments import read_segment
@@ -20,7 +21,8 @@ class Readings:
     Reading 0 is the empty one, label 0 is ``_``.
 
     * *labels* of all readings, one after another; reading *i* has ``labels[starts[i] : starts[i + 1]]``
-    * *first* and *last*: the outer labels of each reading, 0 for the empty one
+    * *first*: the first label of each reading, 0 for the empty one
+    * *outer*: the first and, in the lower 16 bits, the last label of each
     * *vowels*: whether each label is, or begins with, a vowel
     """
 
@@ -30,20 +32,24 @@ class Readings:
         self.labels: Numbers = np.zeros(0, np.int32)
         self.starts: NDArray[np.int64] = np.zeros(2, np.int64)
         self.first: Numbers = np.zeros(1, np.int32)
-        self.last: Numbers = np.zeros(1, np.int32)
+        self.outer: Numbers = np.zeros(1, np.int32)
         self._numbers = {"": 0}
         self._label_numbers = {SILENCE: 0}
 
     def __len__(self) -> int:
         return len(self._numbers)
 
-    def number(self, readings: Sequence[str]) -> Numbers:
+    def number(self, readings: pa.StringArray) -> Numbers:
         """The numbers of *readings*; those that are new are added."""
-        new = [reading for reading in dict.fromkeys(readings) if reading not in self._numbers]
+        encoded = readings.dictionary_encode()
+        different = encoded.dictionary.to_pylist()
+        new = [i for i, reading in enumerate(different) if reading not in self._numbers]
         if new:
-            self._add([reading.split(" ") for reading in new])
-            self._numbers |= {reading: len(self._numbers) + i for i, reading in enumerate(new)}
-        return np.array([self._numbers[reading] for reading in readings], np.int32)
+            self._add(encoded.dictionary.take(pa.array(new)))
+            self._numbers |= {different[i]: len(self._numbers) + k for k, i in enumerate(new)}
+        numbers = np.array([self._numbers[reading] for reading in different], np.int32)
+        found: Numbers = numbers[encoded.indices.to_numpy()]
+        return found
 
     def spelled(self, number: int) -> str:
         """Reading *number* as labels between spaces."""
@@ -58,13 +64,16 @@ class Readings:
             self.vowels = np.append(self.vowels, [_is_vowel(label) for label in new])
         return np.array([self._label_numbers[label] for label in labels], np.int32)
 
-    def _add(self, runs: Sequence[Sequence[str]]) -> None:
-        labels = self.label_numbers(list(chain.from_iterable(runs)))
-        ends = np.cumsum([len(run) for run in runs])
+    def _add(self, readings: pa.StringArray) -> None:
+        runs = pc.split_pattern(readings, " ")
+        encoded = runs.flatten().dictionary_encode()
+        labels = self.label_numbers(encoded.dictionary.to_pylist())[encoded.indices.to_numpy()]
+        ends = np.cumsum(pc.list_value_length(runs).to_numpy())
         self.labels = np.concatenate([self.labels, labels])
         self.starts = np.concatenate([self.starts, self.starts[-1] + ends])
-        self.first = np.concatenate([self.first, labels[np.append(0, ends[:-1])]])
-        self.last = np.concatenate([self.last, labels[ends - 1]])
+        first = labels[np.append(0, ends[:-1])]
+        self.first = np.concatenate([self.first, first])
+        self.outer = np.concatenate([self.outer, (first << 16) + labels[ends - 1]])
 
 
 def _is_vowel(label: str) -> bool:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pyarrow as pa
@@ -10,13 +12,14 @@ from numpy.typing import NDArray
 
 from lipdb.coverage.findings import NO_WORDS, REASONS
 from lipdb.coverage.lexicon import Lexicon, Masks, mask_of
-from lipdb.coverage.readings import Numbers
-from lipdb.coverage.words import cut
+from lipdb.coverage.words import Places, cut, spans_of
 
 FLOWS, PAUSES, ENDS = range(3)
 """What the gap behind a word says: go on, pause, the line ends."""
 LEFT_OUT = np.uint32(mask_of(reason for reason, what in REASONS.items() if what.left_out and reason != NO_WORDS))
 """A line with such a word is left out, as the voice would not say it."""
+AT_ONCE = 1 << 20
+"""Bytes that are cut at once: what numpy makes of them stays in the processor's cache."""
 
 
 @dataclass(frozen=True)
@@ -24,19 +27,41 @@ class Running:
     """The *n* words of some lines that have a reading: *words* (numbers in the lexicon), what is *behind* each, its *line*.
 
     *remarks* is a mask for each line, of what there is to remark about its words. Lines that are left out have no words here.
+    *unread* are lines with signs that the voice may not read.
     """
 
-    words: Numbers
+    words: Places
     behind: NDArray[np.uint8]
     line: NDArray[np.int32]
     remarks: Masks
+    unread: Places
 
     def __len__(self) -> int:
         return len(self.words)
 
+    def part(self, first: int, last: int) -> Running:
+        """The words from *first* to *last*; remarks are of all lines."""
+        return Running(self.words[first:last], self.behind[first:last], self.line[first:last], self.remarks, self.unread)
+
+    def parts(self, size: int) -> Iterator[Running]:
+        """The words in parts of about *size*, each of whole lines."""
+        ends = np.flatnonzero(self.behind == ENDS) + 1
+        chosen = ends[np.searchsorted(ends, range(size, len(self), size))]
+        for first, last in pairwise([0, *dict.fromkeys(chosen.tolist()), len(self)]):
+            if first < last:
+                yield self.part(first, last)
+
 
 def running(lexicon: Lexicon, texts: pa.StringArray) -> Running:
     """*texts*, one line each, as *lexicon* reads their words. It asks the voice for those that are new to it."""
+    _, starts, _ = spans_of(texts)
+    edges = [*np.searchsorted(starts, range(0, starts[-1] + 1, AT_ONCE)).tolist(), len(texts)] if len(texts) else [0, 0]
+    parts = [_running(lexicon, texts[first:last], first) for first, last in pairwise(edges)]
+    return Running(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+
+
+def _running(lexicon: Lexicon, texts: pa.StringArray, first: int) -> tuple[Places, NDArray[np.uint8], NDArray[np.int32], Masks, Places]:
+    """The fields of `Running` for *texts*, whose lines are numbered from *first*."""
     words = cut(texts)
     numbers = lexicon.words(words)
     counts = np.diff(np.append(words.lines, len(words)))
@@ -47,14 +72,12 @@ def running(lexicon: Lexicon, texts: pa.StringArray) -> Running:
     places = places[behind[places] == FLOWS]
     behind[places] = lexicon.gaps(words, places)
     remarks = np.zeros(len(texts), np.uint32)
-    remarked = np.flatnonzero(lexicon.remarks[numbers])
-    np.bitwise_or.at(remarks, line[remarked], lexicon.remarks[numbers[remarked]])
-    said = lexicon.reading[numbers] != 0
-    if (remarks & LEFT_OUT).any():
-        said &= (remarks & LEFT_OUT == 0)[line]
-    kept = np.flatnonzero(said)
-    if len(kept) < len(words):
-        # What stood behind a word that is not there stands behind the one in front of it.
-        behind = np.maximum.reduceat(behind, kept) if kept.size else behind[:0]
-        numbers, line = numbers[kept], line[kept]
-    return Running(numbers, behind, line, remarks)
+    if lexicon.unusual[numbers].any():
+        remarked = np.flatnonzero(lexicon.remarks[numbers])
+        np.bitwise_or.at(remarks, line[remarked], lexicon.remarks[numbers[remarked]])
+        kept = np.flatnonzero((lexicon.reading[numbers] != 0) & (remarks & LEFT_OUT == 0)[line])
+        if len(kept) < len(words):
+            # What stood behind a word that is not there stands behind the one in front of it.
+            behind = np.maximum.reduceat(behind, kept) if kept.size else behind[:0]
+            numbers, line = numbers[kept], line[kept]
+    return numbers, behind, line + np.int32(first), remarks, words.unread + first

@@ -7,6 +7,8 @@ never one of pairs of words.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
@@ -16,39 +18,49 @@ from lipdb.coverage.forms import Forms
 from lipdb.coverage.readings import Numbers, Readings
 from lipdb.coverage.running import FLOWS, Running
 
+_AT_ONCE = 1 << 17  # Words: what numpy makes of them stays in the processor's cache.
 _LARGE = 20_000  # Words. Documents of more are counted one by one, smaller ones all at once.
 
 
 def pairs_of(lines: Lines, found: Running, forms: Forms) -> pa.Table:
     """The pairs of labels in *found*, the words of *lines*, by document."""
-    readings, behind = forms.said(found)
-    table = forms.lexicon.readings
-    document = lines.document[found.line]
+    document = lines.document[found.line] if len(lines.names) > 1 else np.zeros(len(found), np.int32)
     edges = np.flatnonzero(np.diff(document, prepend=-1, append=-1)) if len(found) else np.zeros(1, np.int64)
     if len(found) < _LARGE * (len(edges) - 1):
-        return _small(lines, found, document, readings, behind, table)
-    parts = [
-        _table(lines.names[document[first]], _matrix(readings[first:last], behind[first:last], table), table)
-        for first, last in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True)
+        return _small(lines, found, document, forms)
+    tables = [
+        _table(lines.names[document[first]], _matrix(found.part(first, last), forms), forms.lexicon.readings)
+        for first, last in pairwise(edges.tolist())
     ]
-    return pa.concat_tables([PAIRS.empty_table(), *parts])
+    return pa.concat_tables([PAIRS.empty_table(), *tables])
 
 
-def _matrix(readings: Numbers, behind: NDArray[np.uint8], table: Readings) -> NDArray[np.int64]:
+def _matrix(found: Running, forms: Forms) -> NDArray[np.int64]:
     """How often each label stands in front of each in one document, of shape (labels, labels)."""
-    first, last = table.first[readings], table.last[readings]
+    table = forms.lexicon.readings
     size = len(table.names)
-    flows = behind[:-1] == FLOWS
-    across = np.bincount(last[:-1] * size + first[1:] * flows, minlength=size * size)
-    across += np.bincount(first[1:][~flows], minlength=size * size)
-    across[[first[0], last[-1] * size]] += 1
-    count = np.bincount(readings)
-    there = np.flatnonzero(count)
+    count = np.zeros(size * size, np.int64)
+    said: list[Numbers] = []
+    for part in found.parts(_AT_ONCE):
+        readings, behind = forms.said(part)
+        outer = table.outer[readings]
+        count += _across(outer >> 16, outer & 0xFFFF, behind, size)
+        said.append(readings)
+    often = np.bincount(np.concatenate(said))
+    there = np.flatnonzero(often)
     labels, owner = _spelled_out(there, table)
     inner = owner[1:] == owner[:-1]
-    weights = count[there][owner[1:][inner]]
-    within = np.bincount(labels[:-1][inner] * size + labels[1:][inner], weights, minlength=size * size)
-    return (across + within.astype(np.int64)).reshape(size, size)
+    within = np.bincount(labels[:-1][inner] * size + labels[1:][inner], often[there][owner[1:][inner]], minlength=size * size)
+    return (count + within.astype(np.int64)).reshape(size, size)
+
+
+def _across(first: Numbers, last: Numbers, behind: NDArray[np.uint8], size: int) -> NDArray[np.int64]:
+    """The pairs between words with these outer labels, and between them and the silence around them."""
+    flows = behind[:-1] == FLOWS
+    count = np.bincount(last[:-1] * size + first[1:] * flows, minlength=size * size)
+    count += np.bincount(first[1:][~flows], minlength=size * size)
+    count[[first[0], last[-1] * size]] += 1
+    return count
 
 
 def _spelled_out(readings: NDArray[np.integer], table: Readings) -> tuple[Numbers, NDArray[np.int64]]:
@@ -68,8 +80,10 @@ def _table(name: str, matrix: NDArray[np.int64], table: Readings) -> pa.Table:
     return pa.table([document, names.take(pa.array(left)), names.take(pa.array(right)), pa.array(matrix[left, right])], schema=PAIRS)
 
 
-def _small(lines: Lines, found: Running, document: Numbers, readings: Numbers, behind: NDArray[np.uint8], table: Readings) -> pa.Table:
+def _small(lines: Lines, found: Running, document: Numbers, forms: Forms) -> pa.Table:
     """The pairs of many small documents: every label is written out."""
+    readings, behind = forms.said(found)
+    table = forms.lexicon.readings
     labels, owner = _spelled_out(readings, table)
     opens = np.diff(found.line, prepend=-1) > 0
     # A silence in front of every line, and one behind every pause and line.

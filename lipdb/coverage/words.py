@@ -8,7 +8,6 @@ character is a word by itself. What stands between two words is a gap.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -21,13 +20,14 @@ Places = NDArray[np.int64]
 Keys = NDArray[np.uint64]
 
 GAP, WORD, DIGIT, CHARACTER = range(4)
-JOINS_LETTERS, JOINS_DIGITS = 4, 8
+JOINS_LETTERS, JOINS_DIGITS, UNREAD = 4, 8, 16
 JOINERS = {"'": JOINS_LETTERS, "’": JOINS_LETTERS, ".": JOINS_LETTERS | JOINS_DIGITS, ",": JOINS_DIGITS, ":": JOINS_DIGITS}
 SIGNS = "%&@#"
 # Signs that only style or join the one in front: of emoji, and skin colours.
 STYLES = (range(0xFE00, 0xFE10), range(0x1F3FB, 0x1F400))
+CHARACTERS = (range(0x3005, 0x3008), range(0x3400, 0x4DC0), range(0x4E00, 0xA000), range(0xF900, 0xFB00))
 PLANES = 0x20000
-"""Above it are Chinese characters, up to `LAST_CHARACTER`, and then nothing that is read."""
+"""Above it are more Chinese characters, up to `LAST_CHARACTER`, and then nothing that is read."""
 LAST_CHARACTER = 0x3FFFF
 SPACE, CONTINUATION, LEAD = 0x20, 0x80, 0xC0
 
@@ -40,6 +40,8 @@ _PADDING = bytes(8)
 class Words:
     """The *n* words of lines: the bytes where each starts and ends, and for each line the index of its first word.
 
+    *unread* are the lines with signs that voices may not read: emoji, other pictograms, control codes.
+
     Gap *i* is between the words *i* and *i* + 1; there are *n* - 1, those where a line ends among them.
     """
 
@@ -47,6 +49,7 @@ class Words:
     starts: Places
     ends: Places
     lines: Places
+    unread: Places
 
     def __len__(self) -> int:
         return len(self.starts)
@@ -78,20 +81,20 @@ class Words:
 def cut(texts: pa.StringArray) -> Words:
     """The words of lines of text."""
     raw, lines, _ = spans_of(texts)
-    kinds = _kinds(raw, lines)
+    kinds, unread = _kinds(raw, lines)
     inside = kinds != GAP
     edges = np.flatnonzero(inside[1:] != inside[:-1]) + 1
-    first = [np.zeros(1, np.int64)] if inside[0] else []
+    edges = np.append(0, edges) if inside[0] else edges
     # Two lines with nothing between their words, and characters: there one word ends and the next one starts.
     touching = [lines[inside[lines] & inside[lines - 1] & (lines > 0)]]
     if not raw.isascii() and (characters := np.flatnonzero(kinds == CHARACTER)).size:
         ends = characters + _widths(raw, characters)
         touching += [characters[inside[characters - 1] & (characters > 0)], ends[inside[ends]]]
     borders = _distinct(np.concatenate(touching))
-    if borders.size or first:
-        edges = np.sort(np.concatenate([*first, edges, borders, borders]), kind="stable")
-    starts, ends = edges[0::2], edges[1::2]
-    return Words(raw, starts, ends, np.searchsorted(starts, lines))
+    if borders.size:
+        edges = np.sort(np.concatenate([edges, borders, borders]), kind="stable")
+    starts, ends = edges[0::2].copy(), edges[1::2].copy()
+    return Words(raw, starts, ends, np.searchsorted(starts, lines), _distinct(np.searchsorted(lines, unread, side="right") - 1))
 
 
 def spans_of(texts: pa.StringArray) -> tuple[bytes, Places, Places]:
@@ -104,11 +107,9 @@ def spans_of(texts: pa.StringArray) -> tuple[bytes, Places, Places]:
     return data.slice(first, last - first).to_pybytes() if data else b"", offsets[:-1] - first, offsets[1:] - first
 
 
-def spans(texts: Sequence[str]) -> Words:
+def each_a_word(texts: pa.StringArray) -> Words:
     """*texts*, each of them one word, whatever is in it."""
-    coded = [text.encode() for text in texts]
-    ends = np.cumsum([len(text) for text in coded], dtype=np.int64)
-    return Words(b"".join(coded), np.append(0, ends[:-1])[: len(coded)], ends, np.zeros(1, np.int64))
+    return Words(*spans_of(texts), *np.zeros((2, 0), np.int64))
 
 
 def keys_of(raw: bytes, starts: Places, ends: Places) -> Keys:
@@ -130,16 +131,19 @@ def keys_of(raw: bytes, starts: Places, ends: Places) -> Keys:
     return np.where(keys == 0, _MIX, keys) if (keys == 0).any() else keys
 
 
-def _kinds(raw: bytes, lines: Places) -> Bytes:
+def _kinds(raw: bytes, lines: Places) -> tuple[Bytes, Places]:
     """What each byte is part of, and a `GAP` more at the end; the bytes after a character's first are `WORD`.
 
-    Nothing is joined across the starts of *lines*.
+    Nothing is joined across the starts of *lines*. Also returns the places of signs that voices may not read.
     """
     kinds = np.zeros(len(raw) + 1, np.uint8)
     kinds[:-1] = np.frombuffer(raw.translate(_ascii_kinds()), np.uint8)
     if not raw.isascii():
         _mark_others(raw, kinds)
-    joiners = np.flatnonzero(kinds >= JOINS_LETTERS)
+    marked = np.flatnonzero(kinds >= JOINS_LETTERS)
+    of = kinds[marked]
+    joiners, unread = marked[of < UNREAD], marked[of >= UNREAD]
+    kinds[unread] = GAP
     if joiners.size:
         widths = _widths(raw, joiners)
         kind, before, after = kinds[joiners], kinds[joiners - 1], kinds[joiners + widths]
@@ -152,7 +156,7 @@ def _kinds(raw: bytes, lines: Places) -> Bytes:
         wide = joiners[(letters | digits) & (widths > 1)]
         for byte in (1, 2):
             kinds[wide + byte] = WORD
-    return kinds
+    return kinds, unread
 
 
 def _mark_others(raw: bytes, kinds: Bytes) -> None:
@@ -200,9 +204,11 @@ def _kind_of(character: str) -> int:
     category = unicodedata.category(character)
     if any(ord(character) in styles for styles in STYLES):
         return GAP
-    if category in ("Lo", "Nl") and unicodedata.name(character, "").startswith(("CJK", "IDEOGRAPHIC")):
+    if category[0] in "LN" and any(ord(character) in characters for characters in CHARACTERS):
         return CHARACTER
     if category == "Nd":
         return DIGIT
+    if category in ("So", "Cc", "Co", "Cn", "Cs") and not character.isspace():
+        return UNREAD
     spoken = category[0] in "LMN" or category in ("Sc", "Sm", "Cf") or character in SIGNS
     return WORD if spoken else GAP
