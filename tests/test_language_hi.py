@@ -39,7 +39,8 @@ def test_words_have_the_phones_of_hindi(db: lipdb.Database, word: str, expected:
         ("फूल", "bmp w l"),
         ("फ़ोन", "f ao d"),  # a dot below tells f from ph
         ("यार", "ih aa d"),
-        ("वह", "f ah h"),
+        ("वह", "f ao h"),  # a short a beside h is no schwa
+        ("शहर", "sh eh h ah d"),
     ],
 )
 def test_words_look_as_they_are_said(db: lipdb.Database, word: str, expected: str) -> None:
