@@ -223,6 +223,7 @@ def test_sentences_end_at_the_marks_of_any_script_and_at_lines():
 
 def test_words_keep_their_marks_and_lose_punctuation():
     assert words_of(["«हूँ»। (हैं)", "l'été, 25 l'été"]) == ["l'été", "हूँ", "हैं"]
+    assert words_of(["今日好！好"]) == ["好", "今", "日"]
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing
+from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import DataError
 
 
@@ -101,17 +101,18 @@ def new_language(
             revision = db.store.dump(folder)
         click.echo(f"lipdb: {folder}: made from revision {revision} of the database, for you to edit", err=True)
     whole = (folder / "common.tsv").is_file()
-    made = new_language(
-        code,
-        folder,
-        records=read_folder(folder if whole else phonesets_dir(options.phonesets)),
-        voice=voice,
-        author=author,
-        name=name,
-        script=script,
-        text=None if text is None else read_text(text),
-        source=source,
-    )
+    with progress_bar():
+        made = new_language(
+            code,
+            folder,
+            records=read_folder(folder if whole else phonesets_dir(options.phonesets)),
+            voice=voice,
+            author=author,
+            name=name,
+            script=script,
+            text=None if text is None else read_text(text),
+            source=source,
+        )
     rows = [phone.to_row() for phone in made.phones]
     if as_json:
         print_json({"language": code, "folder": str(made.folder), "phones": rows, "sentences": made.sentences, "notes": made.notes})

@@ -21,6 +21,7 @@ from lipdb.languages.folder import require_code
 from lipdb.languages.propose import NOTATION, Phone, alias_rows, phone_rows, propose_phones, table
 from lipdb.languages.sample import symbols_of
 from lipdb.languages.text import chosen, examples_for, script_in, sentences_of, words_of
+from lipdb.progress import steps
 
 if TYPE_CHECKING:
     from lipdb.speech.espeak import EspeakVoice
@@ -122,7 +123,7 @@ def _hear(voice: EspeakVoice, sentences: tuple[str, ...] | list[str]) -> tuple[d
     said: dict[str, Phrases] = {}
     refused: list[str] = []
     foreign = 0
-    for sentence in sentences:
+    for sentence in steps(sentences, total=len(sentences), what="listening"):
         try:
             reading = voice.read(sentence)
         except InputError as error:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 # Sentences end at these marks of any script, with the quotes and brackets behind them, and at the end of every line.
 _ENDS = re.compile(r"(?<=[.!?…。！？।॥؟۔።။៕])(?=[\"'”’»)\]]?\s)[\"'”’»)\]]?\s+|[。！？]+")
 _EDGES = re.compile(r"^[^\w]+|[^\w\u0300-\u036f\u0900-\u0963\u0966-\u0dff\u0e31-\u0e4e\u1000-\u109f]+$")
+_CHARACTER = re.compile(r"[\u3400-\u9fff]")
 LONGEST, SHORTEST = 160, 8
 """Letters of a sentence for a sample: longer and shorter ones are taken only when nothing else has a sound."""
 MOST_WORDS = 5000
@@ -65,10 +66,15 @@ def _cut(line: str) -> Iterator[str]:
 
 
 def words_of(sentences: Iterable[str]) -> list[str]:
-    """The words of *sentences* without digits, the most frequent first; at most `MOST_WORDS`."""
-    counts = Counter(
-        word for sentence in sentences for token in sentence.split() if (word := _EDGES.sub("", token)) and not re.search(r"\d", word)
-    )
+    """The words of *sentences* without digits, the most frequent first; at most `MOST_WORDS`.
+
+    Where characters are written without spaces, each of them is a word.
+    """
+    counts: Counter[str] = Counter()
+    for sentence in sentences:
+        for token in _CHARACTER.sub(r" \g<0> ", sentence).split():
+            if (word := _EDGES.sub("", token)) and not re.search(r"\d", word):
+                counts[word] += 1
     return [word for word, _ in sorted(counts.items(), key=lambda item: (-item[1], item[0]))[:MOST_WORDS]]
 
 
