@@ -1,0 +1,25 @@
+"""Sentences that need a pair, and the pairs of what somebody typed."""
+
+import pytest
+
+from lipdb.languages.examples import Examples, pairs_in_order
+
+
+@pytest.fixture(scope="module")
+def english(db) -> Examples:
+    return Examples(db, "en", "robin")
+
+
+def test_the_sentences_that_hold_a_pair_come_shortest_first(db, english) -> None:
+    found = english.containing("l", "ow")
+    assert found == sorted(found, key=len)
+    assert 5 < len(found) < len(english.pairs)
+    for sentence in found[:3]:
+        assert ("l", "ow") in pairs_in_order(db.say(sentence))
+    assert english.containing("oy", "oy") == []
+
+
+def test_the_pairs_of_a_word_are_in_the_order_of_speech(db) -> None:
+    assert pairs_in_order(db.say("low")) == [("_", "l"), ("l", "ow"), ("ow", "_")]
+    assert pairs_in_order(db.say("papa"))[1:3] == [("bmp", "aa"), ("aa", "bmp")]
+    assert ("ue", "_") in pairs_in_order(db.say("绿", language="cmn"))
