@@ -1,0 +1,73 @@
+// What Python sends to the curve editor and gets back, and what can be done with keys.
+
+export type Key = [time: number, weight: number];
+
+/** By pose: the keys of the edited layer, none for zero; null leaves the pose to the layer below. */
+export type Curves = Record<string, Key[] | null>;
+
+export interface Lane {
+  pose: string;
+  keys: Key[] | null;
+  /** What counts where the edited layer says nothing, and the layer that it comes from. */
+  below: Key[];
+  from: string;
+  /** Why an edit here may not be seen; empty when it is. */
+  note: string;
+  /** What the engine makes of the curve for phones of these lengths: normalised time and weight. */
+  drawn: Key[];
+}
+
+export interface KeysData {
+  /** Changes when another curve is to be edited; the editor then forgets what it had. */
+  id: string;
+  left: string;
+  right: string;
+  layer: string;
+  lanes: Lane[];
+  locked: boolean;
+  /** Whether the curve comes out of silence, or goes into it: it has to be at rest there. */
+  silent: [boolean, boolean];
+  /** Curves to take over as one step that can be undone, once for each token. */
+  given: { token: string; curves: Curves } | null;
+}
+
+export const GRID = 0.05;
+/** Two keys are at least this far apart. */
+const CLOSE = 0.004;
+
+export function round(value: number): number {
+  return Math.round(value * 1000) / 1000;
+}
+
+function within(value: number, low: number, high: number): number {
+  return round(Math.min(Math.max(value, low), high));
+}
+
+export function copy(curves: Curves): Curves {
+  return Object.fromEntries(Object.entries(curves).map(([pose, keys]) => [pose, keys && keys.map(([t, w]): Key => [t, w])]));
+}
+
+export function same(a: Curves, b: Curves): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
+}
+
+/** `keys` at rest where silence is. */
+export function rested(keys: Key[], silent: [boolean, boolean]): Key[] {
+  const last = keys.length - 1;
+  return keys.map(([time, weight], k) => [time, (silent[0] && k === 0) || (silent[1] && k === last) ? 0 : weight]);
+}
+
+/** Key `k` moved to `to`, between its neighbours. */
+export function moved(keys: Key[], k: number, to: Key): Key[] {
+  const low = k ? keys[k - 1][0] + CLOSE : 0;
+  const high = k < keys.length - 1 ? keys[k + 1][0] - CLOSE : 1;
+  return keys.map((key, i) => (i === k ? [within(to[0], low, high), within(to[1], 0, 1)] : key));
+}
+
+/** `keys` with one at `at` more, and its index; null where there is no room. */
+export function added(keys: Key[], at: Key): [Key[], number] | null {
+  const made: Key = [within(at[0], 0, 1), within(at[1], 0, 1)];
+  if (keys.some(([time]) => Math.abs(time - made[0]) < CLOSE)) return null;
+  const k = keys.filter(([time]) => time < made[0]).length;
+  return [[...keys.slice(0, k), made, ...keys.slice(k)], k];
+}
