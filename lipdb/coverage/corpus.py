@@ -116,7 +116,7 @@ def parts(source: Source, size: int) -> Iterator[Part | Counts]:
         yield from _row_groups(source)
     elif source.kind == TEXT and source.size:
         for start in range(0, source.size, size):
-            yield FilePart(source.document, source.path, start, size)
+            yield FilePart(source.document, source.path, start, min(size, source.size - start))
     else:
         yield from _stream(source, size)
 

@@ -68,9 +68,13 @@ class Workers:
         while running:
             yield from self._finished(running, suspects)
         for task in suspects:
-            future = self._submit(work, task)
-            wait([future])
-            yield Done(task, None if _lost(future) else future.result())
+            yield Done(task, self.alone(work, task))
+
+    def alone(self, work: Callable[[Task], Result], task: Task) -> Result | None:
+        """The result of *work* for *task* with nothing beside it; None when it ended its worker."""
+        future = self._submit(work, task)
+        wait([future])
+        return None if _lost(future) else future.result()
 
     def _finished(self, running: dict[Future[Result], Task], suspects: list[Task]) -> Iterator[Done[Task, Result]]:
         """Wait for some of *running*; those whose worker was lost become *suspects*."""

@@ -13,7 +13,7 @@ class Reason(NamedTuple):
     meaning: str
 
 
-FILE, LINE, LABEL = "file", "line", "phone"
+FILE, LINE, LABEL, STRETCH = "file", "line", "phone", "stretch"
 
 NOT_TEXT = "not text"
 NOT_READABLE = "not readable"
@@ -46,7 +46,7 @@ REASONS = {
     OTHER_SCRIPT: Reason(True, LINE, "it has letters of another script than the language's"),
     NO_WORDS: Reason(True, LINE, "there is no letter and no digit in it"),
     NOT_SAID: Reason(True, LINE, "the voice can't say it"),
-    CRASHED: Reason(True, LINE, "the voice did not come back from it"),
+    CRASHED: Reason(True, STRETCH, "the voice never came back from something in these lines"),
     EMOJI: Reason(False, LINE, "its emoji and pictograms are not read"),
     CONTROLS: Reason(False, LINE, "its control codes and broken characters are not read"),
     LONG_WORDS: Reason(False, LINE, "its words of more than 60 letters are read in pieces"),

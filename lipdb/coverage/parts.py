@@ -21,7 +21,7 @@ from lipdb.coverage.lines import finding, lines_of, rows_of
 from lipdb.errors import InputError
 from lipdb.schedule import SILENCE
 
-_SMALLEST = 1 << 12  # Bytes. A part that is not larger is not cut in halves again.
+_SMALLEST = 1 << 10  # Bytes. A part that is not larger is not cut in halves again.
 
 
 class Content(NamedTuple):

@@ -170,7 +170,8 @@ class _Run:
         if not halves:
             return Outcome(digests, finding("", CRASHED, f"{task.part.weight} bytes of {self.sources[task.source].document}"))
         work = partial(count_part, self.counter, None)
-        found = [outcome or self._give_up(half) for half, outcome in self.workers.map(work, [task._replace(part=half) for half in halves])]
+        pieces = [task._replace(part=half) for half in halves]
+        found = [self.workers.alone(work, piece) or self._give_up(piece) for piece in pieces]
         return Outcome(digests, Counts.sum(half.counts for half in found if half.counts is not None))
 
 
