@@ -159,7 +159,7 @@ def test_a_missing_file_says_where_scans_are_listed(tmp_path) -> None:
 
 
 def test_published_frequencies_are_named_by_their_table(db) -> None:
-    paper = named_frequency(db.records, "xu2013")
+    paper = named_frequency(db, "xu2013")
     assert (len(paper), paper.whole, paper.share(("ah", "d"))) == (21, False, pytest.approx(0.0462))
 
 

@@ -1,4 +1,4 @@
-"""``lipdb coverage``: count which phone pairs real text needs, and list what was counted."""
+"""``lipdb coverage``: count which phone pairs real text needs, list what was counted, and say what the counts tell."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lipdb.cli.coverage_report import compare, gaps, report, select
 from lipdb.cli.options import Options, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import InputError
 
@@ -21,7 +22,8 @@ def coverage() -> None:
     \b
     Examples:
       lipdb coverage scan stories/ --language en
-      lipdb coverage list
+      lipdb coverage report
+      lipdb coverage gaps --top 10
     """
 
 
@@ -114,3 +116,7 @@ def list_scans(options: Options, language: str | None, as_json: bool) -> None:
         rows: list[dict[str, Any]] = [{**one.to_json(), "state": state_of(db, one)} for one in db.store.scans(language)]
     columns = ("id", "time", "language", "mode", "state", "pairs", "lines", "revision", "corpus", "path")
     print_listing(rows, as_json=as_json, columns=columns)
+
+
+for command in (report, gaps, select, compare):
+    coverage.add_command(command)

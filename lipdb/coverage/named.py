@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
     from lipdb.curated.tsv import Records
+    from lipdb.database import Database
 
 LEFT, RIGHT, COUNT = ("left", "from"), ("right", "to"), ("count", "percent")
 DELIMITERS = {".csv": ",", ".tsv": "\t"}
@@ -58,11 +59,21 @@ def _read(path: Path, kind: str) -> pa.Table:
     return csv.read_csv(path, parse_options=csv.ParseOptions(delimiter=DELIMITERS[kind]))
 
 
-def named_frequency(records: Records, name: str, *, silence: bool = True) -> Frequency:
-    """The frequency that *name* means: a file, or published frequencies by their name."""
+def named_frequency(db: Database, name: str, *, silence: bool = True) -> Frequency:
+    """The frequency that *name* means: a file, the number of a scan in `lipdb coverage list`, or published frequencies by name."""
     path = Path(name)
-    known = published(records)
-    if name in known and not path.exists():
-        rows = records[known[name]].values()
-        return Frequency.of(((row["left"], row["right"], float(row["percent"])) for row in rows), silence=silence, percent=True)
+    known = published(db.records)
+    if not path.exists():
+        if name in known:
+            rows = db.records[known[name]].values()
+            return Frequency.of(((row["left"], row["right"], float(row["percent"])) for row in rows), silence=silence, percent=True)
+        path = next((Path(scan.path) for scan in db.store.scans() if name == str(scan.id)), path)
     return read_frequency(path, silence=silence)
+
+
+def newest_scan(db: Database, language: str) -> str:
+    """The file of the newest scan of *language*. Raises `InputError` when there is none."""
+    scans = db.store.scans(language)
+    if not scans:
+        raise InputError(f"there is no scan of {language!r} yet; count some text with `lipdb coverage scan FILE --language {language}`")
+    return scans[0].path
