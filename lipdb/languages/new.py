@@ -6,7 +6,7 @@ import re
 import shutil
 import tempfile
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,7 +18,7 @@ from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError, OutputError, PhonesetError
 from lipdb.languages.folder import require_code
-from lipdb.languages.propose import NOTATION, Phone, alias_rows, phone_rows, propose_phones, table
+from lipdb.languages.propose import NOTATION, Phone, Proposed, alias_rows, phone_rows, propose_phones, table
 from lipdb.languages.sample import symbols_of
 from lipdb.languages.text import chosen, examples_for, script_in, sentences_of, words_of
 from lipdb.progress import steps
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 SCRIPT = re.compile(r"[A-Z][a-z]{3}")
 SENTENCES = 200
 NUMBERS = (*range(101), 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1_000_000)
-_AT_ONCE = 5
 LANGUAGE_COMMENT = "Proposed by rule from what espeak says; to be reviewed"
 
 
@@ -74,27 +73,29 @@ def new_language(
     script = script or script_in(text or "") or script_of(voice)
     spoken = EspeakVoice(voice, code, script)
     said, notes = _hear(spoken, sentences or _numbers_and_letters(letters_of(script)))
-    words = _hear(spoken, words_of(said) if sentences else list(said))[0]
-    heard = Counter(symbol for phrases in said.values() for symbol in symbols_of(phrases))
-    proposed = propose_phones(heard, examples_for(heard, list(words.items()), said), records)
-    notes += [f"label {label!r} of espeak is no IPA segment; give it a row in {code}/aliases.tsv" for label in proposed.strange]
-    kept = chosen(said, SENTENCES) if len(said) > SENTENCES else list(said)
-    if not sentences:
-        kept = []
-        notes.append("no text: the voice read numbers and letters only; give a --text for phones that these lack, and for sentences")
+    if not said:
+        raise InputError(f"text: the voice {voice} can read none of it; {notes[0]}")
+    proposed = _propose(spoken, said, records)
+    kept = (chosen(said, SENTENCES) if len(said) > SENTENCES else list(said)) if sentences else []
     row = {"language": code, "name": name or espeak_voices()[voice], "notation": NOTATION, "speech": "espeak", "voice": voice}
     tables = {
         "language": [row | {"script": script, "source": "lipdb", "comment": LANGUAGE_COMMENT}],
         "phones": phone_rows(proposed, author=author, time=datetime.now(UTC).strftime(TIME_FORMAT)),
         "aliases": alias_rows(proposed, records),
-        "sentences": ({"sentence": sentence, "source": source} for sentence in kept),
+        "sentences": [{"sentence": sentence, "source": source} for sentence in kept],
     }
-    own = {path: rows for kind, cells in tables.items() if (rows := table(path := f"{code}/{kind}.tsv", cells))}
-    wrong = [one for one in check({**records, **own}) if one.file in own]
-    if wrong:
-        raise PhonesetError(f"the curated data lack what {code} needs: {wrong[0]}")
-    _write(own, folder, code)
+    _write({f"{code}/{kind}.tsv": table(f"{code}/{kind}.tsv", cells) for kind, cells in tables.items() if cells}, folder, code, records)
+    notes += [f"label {label!r} of espeak is no IPA segment; give it a row in {code}/aliases.tsv" for label in proposed.strange]
+    if not sentences:
+        notes.append("no text: the voice read numbers and letters only; give a --text for phones that these lack, and for sentences")
     return NewLanguage(code, folder / code, proposed.phones, len(kept), tuple(notes))
+
+
+def _propose(voice: EspeakVoice, said: Mapping[str, Phrases], records: Records) -> Proposed:
+    """The phones of what *voice* *said*, each with a word that it was asked for by itself."""
+    words, _ = _hear(voice, words_of(said))
+    heard = Counter(symbol for phrases in said.values() for symbol in symbols_of(phrases))
+    return propose_phones(heard, examples_for(heard, list(words.items()), said), records)
 
 
 def _sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
@@ -115,11 +116,8 @@ def _require_free(code: str, folder: Path, records: Records) -> None:
         raise InputError(f"language {code!r} is there already; edit it, or choose another code")
 
 
-def _hear(voice: EspeakVoice, sentences: tuple[str, ...] | list[str]) -> tuple[dict[str, Phrases], list[str]]:
-    """What *voice* makes of each sentence that it reads by its own rules, and notes on those left out.
-
-    Raises `InputError` when it reads none of them.
-    """
+def _hear(voice: EspeakVoice, sentences: Sequence[str]) -> tuple[dict[str, Phrases], list[str]]:
+    """What *voice* makes of each sentence that it reads by its own rules, and notes on those left out."""
     said: dict[str, Phrases] = {}
     refused: list[str] = []
     foreign = 0
@@ -133,23 +131,25 @@ def _hear(voice: EspeakVoice, sentences: tuple[str, ...] | list[str]) -> tuple[d
             foreign += 1
         elif reading.phrases:
             said[sentence] = reading.phrases
-    if not said:
-        why = refused[0] if refused else "it reads all of it as another language"
-        raise InputError(f"text: the voice {voice.name} can read none of {len(sentences)} sentences: {why}")
     notes = [f"{len(refused)} of {len(sentences)} sentences are left out: {refused[0]}"] if refused else []
     if foreign:
         notes.append(f"{foreign} of {len(sentences)} sentences are left out: the voice reads words in them by another language's rules")
     return said, notes
 
 
-def _numbers_and_letters(letters: tuple[str, ...]) -> list[str]:
+def _numbers_and_letters(letters: tuple[str, ...]) -> tuple[str, ...]:
     """What every voice of espeak can read: numbers and the letters of its script."""
-    numbers = [str(number) for number in NUMBERS]
-    return [*(" ".join(numbers[i : i + _AT_ONCE]) for i in range(0, len(numbers), _AT_ONCE)), *letters]
+    return (*map(str, NUMBERS), *letters)
 
 
-def _write(own: Mapping[str, Mapping[tuple[str, ...], dict[str, str]]], folder: Path, code: str) -> None:
-    """Write the tables into a temporary folder and move it into place, so that there is all of it or nothing."""
+def _write(own: Records, folder: Path, code: str, records: Records) -> None:
+    """Write the tables into a temporary folder and move it into place, so that there is all of it or nothing.
+
+    Raises `PhonesetError` when the rows mention what *records* lack.
+    """
+    wrong = [one for one in check({**records, **own}) if one.file in own]
+    if wrong:
+        raise PhonesetError(f"the curated data lack what {code} needs: {wrong[0]}")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         temporary = Path(tempfile.mkdtemp(dir=folder, prefix=".lipdb-"))

@@ -108,7 +108,7 @@ def chosen(said: Mapping[str, Phrases], count: int) -> list[str]:
         # What a sentence is worth only falls, so one that is still worth as much as the next is the best.
         if heap and worth < -heap[0][0]:
             heapq.heappush(heap, (-worth, rank, sentence))
-        elif worth > 0:
+        else:
             taken.append(sentence)
             have |= pairs[sentence]
     return taken

@@ -54,7 +54,12 @@ def _readings(voice: str, letters: tuple[str, ...]) -> int:
 
 @cache
 def letters_of(script: str) -> tuple[str, ...]:
-    """Small letters, letters without case, or syllables of *script* (ISO 15924), the basic ones first; at most `LETTERS`."""
+    """Small letters, letters without case, or syllables of *script* (ISO 15924), the basic ones first; at most `LETTERS`.
+
+    None where nothing is known of the script.
+    """
+    if script not in SCRIPTS:
+        return ()
     kind = _KINDS.get(script, SCRIPTS[script][0])
     kinds = tuple(f"{kind} {what}" for what in ("SMALL LETTER", "LETTER", "SYLLABLE", "CHARACTER", "UNIFIED"))
     letters = (chr(number) for number in range(0x20000) if unicodedata.category(chr(number)) in ("Ll", "Lo"))
