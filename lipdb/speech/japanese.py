@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as package_version
 from typing import TYPE_CHECKING
@@ -49,6 +49,7 @@ class KanaVoice:
     script: str
     syllables: Syllables
     reader: JapaneseReader
+    _parsed: dict[str, tuple[Mora, ...]] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def notation(self) -> str:
@@ -103,19 +104,21 @@ class KanaVoice:
                 found[-1] = Word(last.written + token.written, last.kana + token.kana, last.joined)
             else:
                 found.append(token)
-        return [
-            token
-            for token in found
-            if not isinstance(token, Word) or any(mora.core != LENGTH for mora in morae(token.kana, self.syllables.phones, 0))
-        ]
+        return [token for token in found if not isinstance(token, Word) or any(mora.core != LENGTH for mora in self._morae(token))]
 
     def _sounds(self, word: Word) -> bool:
-        return any(mora.core == NASAL or mora.core.isascii() for mora in morae(word.kana, self.syllables.phones, 0))
+        return any(mora.core == NASAL or mora.core.isascii() for mora in self._morae(word))
+
+    def _morae(self, word: Word) -> tuple[Mora, ...]:
+        """The morae of *word*, as if it were the first."""
+        if word.kana not in self._parsed:
+            self._parsed[word.kana] = tuple(morae(word.kana, self.syllables.phones, 0))
+        return self._parsed[word.kana]
 
     def _breaths(self, tokens: Iterable[Token]) -> Iterator[Breath]:
         row, number = list[Mora](), 0
         for token in [*tokens, Pause(".")]:
-            spoken = list(morae(token.kana, self.syllables.phones, number)) if isinstance(token, Word) else []
+            spoken = [mora._replace(word=number) for mora in self._morae(token)] if isinstance(token, Word) else []
             mark = token.mark if isinstance(token, Pause) else "," if len(row) + len(spoken) > LONGEST_BREATH else ""
             if mark and row:
                 yield Breath(sounds_of(row), mark)

@@ -30,6 +30,7 @@ PUNCTUATION = {
 }  # fmt: skip
 _READING = threading.Lock()
 _KANA_TOKEN = re.compile(rf"(?P<name>\0\0)|(?P<kana>[{HIRAGANA}{KATAKANA}ー]+)|\S")
+_SPOKEN = re.compile(f"[{KATAKANA}]")
 # The dictionary's library takes 8,192 bytes at most; a sentence at a time is quicker, too.
 _SENTENCE = re.compile('[^。！？!?]{1,1000}(?:[。！？!?]+[」』）)”"’】]*)?|[。！？!?]+')
 NAME = "田中"
@@ -146,7 +147,7 @@ def _by_dictionary(text: str, given: Mapping[Span, str]) -> Iterator[Token]:
     last, reached = None, 0
     for entry, following in zip(entries, [*entries[1:], None], strict=False):
         start, end = entry["char_span"]
-        name = next((names.pop(span) for span in list(names) if span[0] < end and start < span[1]), None)
+        name = next((names.pop(span) for span in list(names) if span[0] < end and start < span[1]), None) if names else None
         if end <= reached and end:  # the rest of a name
             continue
         word = _word(entry, following, plain[start:end]) if name is None else Word(*name, joined=entry["chain_flag"] == 1)
@@ -164,7 +165,7 @@ def _by_dictionary(text: str, given: Mapping[Span, str]) -> Iterator[Token]:
 def _word(entry: Mapping[str, Any], following: Mapping[str, Any] | None, written: str) -> Token | None:
     """What an *entry* of the dictionary's is: a word, without kana if nobody reads it; a pause; or nothing that is heard."""
     kana = entry["pron"].replace("・", "")
-    if not re.search(f"[{KATAKANA}]", kana):
+    if not _SPOKEN.search(kana):
         if written in PUNCTUATION:
             return Pause(PUNCTUATION[written])
         return Word(written, "") if any(unicodedata.category(sign)[0] in "LN" for sign in written) else None
