@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from lipdb.curated.tsv import Records
-from lipdb.languages.rules import REVIEW
+from lipdb.languages.report import REVIEW
 from lipdb.phones.proposal import Proposal, propose
 
 ENOUGH = 2

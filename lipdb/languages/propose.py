@@ -12,7 +12,7 @@ from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row, key_of
 from lipdb.languages.labels import THIRD, Reading, has_tones, read_espeak
 from lipdb.languages.precedent import judged, precedents
-from lipdb.languages.rules import REVIEW
+from lipdb.languages.report import REVIEW
 from lipdb.languages.xsampa import xsampa
 from lipdb.phones.proposal import Proposal
 from lipdb.phones.segments import read_segment

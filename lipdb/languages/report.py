@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 from lipdb.curated.tsv import Finding, Key
 
 Pair = tuple[str, str]
+REVIEW = "review:"
+"""How the comment of a row begins that nobody has looked at yet, and a note on a mapping that a person should look at."""
 
 
 class Remark(NamedTuple):

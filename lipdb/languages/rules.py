@@ -8,7 +8,8 @@ from difflib import get_close_matches
 from itertools import groupby
 
 from lipdb.languages.folder import LanguageFolder
-from lipdb.languages.report import Remark
+from lipdb.languages.precedent import precedents, without_length
+from lipdb.languages.report import REVIEW, Remark
 from lipdb.phones.labels import IPA_NOTATIONS
 from lipdb.phones.phoneset import PhoneSet
 from lipdb.phones.proposal import propose
@@ -16,8 +17,6 @@ from lipdb.phones.segments import read_segment
 from lipdb.phones.symbols import JOINTS
 from lipdb.schedule import SILENCE
 
-REVIEW = "review:"
-"""How the comment of a row begins that nobody has looked at yet."""
 _LOOKALIKES = str.maketrans({"g": "ɡ", ":": "ː", "ε": "ɛ", "ǝ": "ə", "γ": "ɣ", "ı": "ɪ", "ʹ": "ʲ"})
 Parts = tuple[str, ...]
 
@@ -120,6 +119,7 @@ def _cut_in_two(table: dict[str, Parts], phoneset: PhoneSet) -> Iterator[tuple[s
 def _phones(folder: LanguageFolder) -> Iterator[Remark]:
     """Rows that wait for review, that articulation would map otherwise, or whose kind or licence is odd."""
     path, known = f"{folder.code}/phones.tsv", folder.records.get("ipa.tsv", {})
+    others = precedents({name: rows for name, rows in folder.records.items() if name != path})
     licences = {row["licence"] for row in folder.records.get("sources.tsv", {}).values()}
     for key, row in folder.rows("phones").items():
         if row["comment"].startswith(REVIEW):
@@ -127,6 +127,8 @@ def _phones(folder: LanguageFolder) -> Iterator[Remark]:
         elif " " not in row["ipa"] and (guess := propose(row["ipa"], known)).common not in ((), tuple(row["common"].split())):
             why = guess.reason.partition(f"; {REVIEW}")[0]
             message = f"{REVIEW} {row['ipa']} maps to {row['common']} here, articulation says {' '.join(guess.common)} ({why})"
+            beside = others.get(without_length(row["ipa"]))
+            message += f"; {beside}" if beside and beside.common == tuple(row["common"].split()) else ""
             yield Remark(path, key, "common", message, note=True)
         letters = read_segment(row["ipa"]).letters
         if not letters:
