@@ -11,7 +11,7 @@ from typing import Any
 from lipdb.errors import InputError, MissingToolError
 
 LOCAL = "local"
-_PATIENCE = 30  # Seconds that the first worker may take to come.
+PATIENCE = 30  # Seconds that the first worker may take to come.
 
 
 @contextmanager
@@ -34,8 +34,8 @@ def dask_executor(scheduler: str, count: int) -> Iterator[tuple[Executor, int]]:
                 stack.enter_context(cluster)
                 client = stack.enter_context(distributed.Client(cluster))
             else:
-                client = stack.enter_context(distributed.Client(scheduler, timeout=_PATIENCE))
-            client.wait_for_workers(1, timeout=_PATIENCE)
+                client = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE))
+            client.wait_for_workers(1, timeout=PATIENCE)
         except (OSError, ValueError, TimeoutError) as error:
             raise InputError(f"{scheduler}: no Dask cluster answers ({error}); give tcp://host:port of its scheduler, or local") from error
         # pure: the same part twice is the same task to Dask; here every task is counted once, whatever it holds.
