@@ -28,7 +28,7 @@ class Remark(NamedTuple):
 class Coverage:
     """The pairs of common phones, pauses included, that a language can have, and which of them its sample text has.
 
-    *possible* are all ordered pairs of the language's common phones and silence; *origins* counts them by where their
+    *possible* are all ordered pairs of the language's common phones and silence; *origins* counts those that occur by where their
     curve comes from (the least worked on of what moves the face), ``fall-back`` being what no table has.
     """
 
@@ -57,7 +57,7 @@ class Coverage:
         curves = ", ".join(f"{count} {origin}" for origin, count in self.origins.items())
         return (
             f"{self.sentences} sentences with {self.phones_heard} of {self.phones} phones and {self.occurring} of {self.possible} pairs "
-            f"of common phones ({share:.1f} %); curves of all pairs: {curves}"
+            f"of common phones ({share:.1f} %); their curves: {curves}"
         )
 
 

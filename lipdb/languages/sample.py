@@ -138,7 +138,7 @@ class Hearing:
         return tuple(c for mapped in found if mapped for c in mapped.common)
 
     def coverage(self) -> Coverage | None:
-        """The pairs that the language can have, those that the sample has, and where their curves come from.
+        """The pairs that the language can have, those that the sample has, and where the curves of these come from.
 
         None where there is no sentence, or a phone maps to a common phone that there is not.
         """
@@ -156,7 +156,7 @@ class Hearing:
             possible=len(possible),
             occurring=len(possible) - len(missing),
             missing=missing,
-            origins=_origins(records, self.folder.code, possible),
+            origins=_origins(records, self.folder.code, [pair for pair in possible if pair in found]),
         )
 
 
