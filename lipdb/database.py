@@ -84,6 +84,10 @@ class Database:
         _ = past.records  # a revision that there is not is told here
         return past
 
+    def read_only(self) -> Database:
+        """The same database for those who may only look: every way to change it raises `StoreError`."""
+        return Database(self.store.read_only(), revision=self._revision)
+
     def edit(self, *, author: str, note: str = "") -> AbstractContextManager[Edit]:
         """One transaction of edits: `put` and `delete` rows inside the block. See `lipdb.store`."""
         return self.store.edit(author=author, note=note)
@@ -125,6 +129,7 @@ class Database:
         """
         from lipdb.characters.add import add_character
 
+        self.store.require_writable()  # before any file is copied
         added = add_character(Path(path), name=name, title=title, records=self.records, folder=self.store.characters_folder)
         with self.edit(author=author, note=f"Add the character {name}") as edit:
             for table, rows in added.tables.items():

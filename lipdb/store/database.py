@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from copy import copy
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Self
@@ -16,7 +17,7 @@ import sqlalchemy as sa
 from lipdb.curated.folder import read_checked_folder, read_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Finding, Key, Row
-from lipdb.errors import InputError
+from lipdb.errors import InputError, StoreError
 from lipdb.paths import home, phonesets_dir
 from lipdb.store.cells import nested, records_from
 from lipdb.store.edit import Edit
@@ -44,6 +45,7 @@ class Store:
         self.where = place_of(url)
         self.phonesets = phonesets
         self._url = url
+        self._shut = False
         with plain_errors(self.where):
             engine = make_engine(url)
         self._reader, self._writer = reading(engine), writing(engine)
@@ -71,6 +73,21 @@ class Store:
     def locate(cls, place: str | Path | None = None, phonesets: Path | str | None = None) -> Self:
         """The store at *place* whatever its schema: nothing is opened, made or checked yet. For `upgrade`."""
         return cls(database_url(place), phonesets_dir(phonesets))
+
+    def read_only(self) -> Self:
+        """The same store for those who may only look: every way to write raises `StoreError`."""
+        view = copy(self)
+        view._shut = True
+        return view
+
+    def require_writable(self) -> None:
+        """Raise `StoreError` when this is a view to look at; see `read_only`."""
+        if self._shut:
+            raise StoreError(f"{self.where}: this view is for looking only; nothing was saved")
+
+    def require_current(self) -> None:
+        """Raise `SchemaVersionError` when somebody upgraded the database while it was open here."""
+        require_current(self._schema(), self.where)
 
     def close(self) -> None:
         """Close every connection. The store may be used again."""
@@ -212,6 +229,7 @@ class Store:
 
     def upgrade(self) -> Upgrade:
         """Bring the schema up to date and merge the shipped text three ways: rows nobody edited follow, others stay."""
+        self.require_writable()
         before = self._schema()
         if before:
             upgrade_tables(self._url)
@@ -251,7 +269,10 @@ class Store:
 
     @contextmanager
     def _writing(self) -> Iterator[sa.Connection]:
+        self.require_writable()
         with plain_errors(self.where), self._writer.begin() as connection:
+            # A program that runs for days must not write into the tables of a newer one.
+            require_current(schema_of(connection, self.where), self.where)
             yield connection
 
     def _schema(self) -> str:
