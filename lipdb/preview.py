@@ -1,8 +1,7 @@
-"""What a player in a browser needs of performances: plain data, with large things behind links."""
+"""What a player in a browser needs of performances: small plain data, with everything large behind links."""
 
 from __future__ import annotations
 
-import base64
 import hashlib
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -26,16 +25,18 @@ Link = Callable[[bytes, str], str]
 """Turns bytes and their media type into a URL."""
 
 PEAKS = 100
-"""Steps a second of the drawn waveform."""
+"""Steps a second of the drawn waveform, about."""
+BINARY = "application/octet-stream"
 MEDIA = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
 def preview(performances: Sequence[Performance], link: Link) -> dict[str, Any]:
     """One or several faces that speak the same line, on one clock.
 
-    Times are seconds from the start of the track. Weights are base64 of little-endian 32-bit floats, frame by frame;
-    ``peaks`` of signed bytes, lowest and highest sample of each hundredth of a second in turn. ``id`` changes exactly when
-    something else does. Raises `InputError` when the performances are not of one length.
+    Times are seconds from the start of the track. Weights (``track`` of poses, ``weights`` of a mesh's shapes) are links
+    to little-endian 32-bit floats, frame by frame; ``peaks`` to signed bytes, lowest and highest sample of each step in
+    turn, ``peak_rate`` steps a second. ``id`` changes exactly when something else does. Raises `InputError` when the
+    performances are not of one length.
     """
     first = performances[0]
     if any(len(p.track.weights) != len(first.track.weights) or p.track.fps != first.track.fps for p in performances):
@@ -43,19 +44,27 @@ def preview(performances: Sequence[Performance], link: Link) -> dict[str, Any]:
     data: dict[str, Any] = {
         "fps": first.track.fps,
         "duration": max(len(first.track.weights) - 1, 0) / first.track.fps,
-        "audio": link(wav_bytes(first.sound), "audio/wav") if first.sound else None,
-        "peaks": _packed(_peaks(first.sound)) if first.sound else "",
+        **_sound(first.sound, link),
         **(_spans(first.line.schedule) if first.line else {"words": [], "phones": [], "common": []}),
-        "poses": list(first.track.poses),
-        "weights": _weights(first.track),
         "faces": [_face(performance, link) for performance in performances],
     }
     return {"id": hashlib.sha256(repr(data).encode()).hexdigest()[:16], **data}
 
 
+def _sound(sound: Sound | None, link: Link) -> dict[str, Any]:
+    if sound is None:
+        return {"audio": None, "peaks": None, "peak_rate": PEAKS}
+    step = max(sound.rate // PEAKS, 1)
+    return {
+        "audio": link(wav_bytes(sound), "audio/wav"),
+        "peaks": link(_peaks(sound, step).tobytes(), BINARY),
+        "peak_rate": sound.rate / step,
+    }
+
+
 def _face(performance: Performance, link: Link) -> dict[str, Any]:
-    who = performance.character
-    face = {"name": who.name, "title": who.title or who.name}
+    who, track = performance.character, performance.track
+    face = {"name": who.name, "title": who.title or who.name, "poses": list(track.poses), "track": _weights(track, link)}
     if who.mesh is None:
         pictures = {shape: link(file.read_bytes(), MEDIA[file.suffix.lower()]) for shape, file in who.pictures.items()}
         return {**face, "kind": "pictures", "pictures": pictures, "cues": [list(cue) for cue in performance.cues()]}
@@ -65,7 +74,7 @@ def _face(performance: Performance, link: Link) -> dict[str, Any]:
         "kind": "mesh",
         "url": link(mesh_bytes(who), "model/gltf-binary"),
         "shapes": list(shapes.poses),
-        "weights": _weights(shapes),
+        "weights": _weights(shapes, link),
     }
 
 
@@ -99,17 +108,12 @@ def _spans(schedule: Schedule) -> dict[str, list[tuple[float, float, str]]]:
     return {"words": words, "phones": phones, "common": common}
 
 
-def _weights(track: Track) -> str:
-    return _packed(np.ascontiguousarray(track.weights, dtype="<f4"))
+def _weights(track: Track, link: Link) -> str:
+    return link(np.ascontiguousarray(track.weights, dtype="<f4").tobytes(), BINARY)
 
 
-def _packed(array: np.ndarray) -> str:
-    return base64.b64encode(array.tobytes()).decode()
-
-
-def _peaks(sound: Sound) -> np.ndarray:
-    """The lowest and highest sample of each step, of the loudest 127."""
-    step = max(sound.rate // PEAKS, 1)
+def _peaks(sound: Sound, step: int) -> np.ndarray:
+    """The lowest and highest of each *step* samples, of the loudest 127."""
     rows = np.zeros((-(-len(sound.samples) // step), step), dtype=np.int16)
     rows.reshape(-1)[: len(sound.samples)] = sound.samples
     found = np.stack([rows.min(axis=1, initial=0), rows.max(axis=1, initial=0)], axis=1).astype(np.float64)

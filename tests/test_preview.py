@@ -1,15 +1,17 @@
 """What a player in a browser gets: times, weights and pictures as they are, large things behind links."""
 
-import base64
 import io
+import json
 import wave
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import lipdb
 from lipdb.errors import InputError
-from lipdb.preview import preview
+from lipdb.preview import mesh_bytes, preview
+from lipdb.sound import Sound
 
 
 @pytest.fixture(scope="module")
@@ -35,8 +37,12 @@ def links():
     return link
 
 
-def unpacked(text: str, kind: str) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(text), kind)
+def linked(links, url: str) -> bytes:
+    return links.kept[int(url.removeprefix("link"))][0]
+
+
+def floats(links, url: str, columns: int) -> np.ndarray:
+    return np.frombuffer(linked(links, url), "<f4").reshape(-1, columns)
 
 
 def test_a_mesh_comes_with_weights_of_its_shapes_and_sound_of_the_same_length(db, line, links) -> None:
@@ -47,10 +53,21 @@ def test_a_mesh_comes_with_weights_of_its_shapes_and_sound_of_the_same_length(db
     content, media = links.kept[int(face["url"].removeprefix("link"))]
     assert content[:4] == b"glTF"
     assert media == "model/gltf-binary"
-    np.testing.assert_allclose(unpacked(face["weights"], "<f4").reshape(-1, len(face["shapes"])), performance.shapes.weights, atol=1e-6)
-    np.testing.assert_allclose(unpacked(data["weights"], "<f4").reshape(-1, len(data["poses"])), performance.track.weights, atol=1e-6)
-    with wave.open(io.BytesIO(links.kept[int(data["audio"].removeprefix("link"))][0])) as file:
+    np.testing.assert_allclose(floats(links, face["weights"], len(face["shapes"])), performance.shapes.weights, atol=1e-6)
+    np.testing.assert_allclose(floats(links, face["track"], len(face["poses"])), performance.track.weights, atol=1e-6)
+    with wave.open(io.BytesIO(linked(links, data["audio"]))) as file:
         assert file.getnframes() == len(line.sound.samples)
+
+
+def test_what_is_sent_with_every_run_of_the_page_is_small(db, links) -> None:
+    line = db.say("Hello! Bob may find five blue whales. " * 8)
+    assert line.sound.duration > 20
+    sent = json.dumps(preview([db.animate(line), db.animate(line, character="crab")], links))
+    assert len(sent) < 16_000 + 100 * len(line.schedule.phones)
+
+
+def test_a_character_s_mesh_is_encoded_once(db, line) -> None:
+    assert mesh_bytes(db.character("crab")) is mesh_bytes(db.character("crab"))
 
 
 def test_the_lanes_hold_words_phones_and_common_phones_in_order(db, line, links) -> None:
@@ -64,11 +81,23 @@ def test_the_lanes_hold_words_phones_and_common_phones_in_order(db, line, links)
 
 
 def test_the_waveform_fits_its_bytes_and_its_duration(db, line, links) -> None:
-    peaks = unpacked(preview([db.animate(line)], links)["peaks"], "i1").reshape(-1, 2)
-    assert len(peaks) == pytest.approx(line.sound.duration * 100, abs=2)
+    data = preview([db.animate(line)], links)
+    peaks = np.frombuffer(linked(links, data["peaks"]), "i1").reshape(-1, 2)
+    assert len(peaks) / data["peak_rate"] == pytest.approx(line.sound.duration, abs=0.02)
     assert np.abs(peaks).max() == 127
     assert (peaks[:, 0] <= 0).all()
     assert (peaks[:, 1] >= 0).all()
+
+
+def test_a_recording_that_is_longer_than_its_phones_keeps_its_own_time(db, line, links) -> None:
+    longer = Sound(np.tile(line.sound.samples, 3), line.sound.rate)
+    data = preview([replace(db.animate(line), sound=longer)], links)
+    assert len(linked(links, data["peaks"])) / 2 / data["peak_rate"] == pytest.approx(longer.duration, abs=0.02)
+
+
+def test_a_line_without_sound_has_none(db, line, links) -> None:
+    data = preview([replace(db.animate(line), sound=None)], links)
+    assert (data["audio"], data["peaks"]) == (None, None)
 
 
 def test_a_flat_mouth_comes_as_pictures_and_cues(db, line, links) -> None:

@@ -111,7 +111,7 @@ with shown_errors():
     shown = [played(line, character), *companion(line, beside)]
     for note in line.notes:
         st.caption(f":material/info: {note}")
-    picked = stage(shown, key="say_stage")
+    picked = stage(shown, key="say_stage", autoplay=True)
     if picked is not None:
         st.session_state["say_at"] = picked
     explained, inside, files = st.tabs(["This instant", "Stages of the engine", "Download"])

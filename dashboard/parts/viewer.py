@@ -39,6 +39,6 @@ def component(name: str) -> Any | None:
     return components[name]
 
 
-def link(content: bytes, media: str) -> str:
-    """A URL under which the browser finds *content*."""
-    return str(get_instance().media_file_mgr.add(content, media, coordinates=str(hash(content))))
+def link(content: bytes, media: str, place: str = "") -> str:
+    """A URL under which the browser finds *content*, for as long as the page shows nothing else at *place*."""
+    return str(get_instance().media_file_mgr.add(content, media, coordinates=place or str(hash(content))))

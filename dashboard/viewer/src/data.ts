@@ -1,10 +1,12 @@
-// What Python sends to the stage, and how its packed arrays are read.
+// What Python sends to the stage (lipdb/preview.py), and how it is read.
+
+import { bytes } from "./files";
 
 /** A stretch of time in seconds with what is written on it. */
 export type Span = [start: number, end: number, text: string];
 
-/** A face to draw: a mesh with morph targets, or pictures of which one shows at a time. */
-export type FaceData = { name: string; title: string } & (
+/** Who speaks: weights of its poses, and a mesh with morph targets, or pictures of which one shows at a time. */
+export type FaceData = { name: string; title: string; poses: string[]; track: string } & (
   | { kind: "mesh"; url: string; shapes: string[]; weights: string }
   | { kind: "pictures"; pictures: Record<string, string>; cues: Span[] }
 );
@@ -14,16 +16,16 @@ export interface StageData {
   fps: number;
   duration: number;
   audio: string | null;
-  peaks: string;
+  /** Lowest and highest sample of each step, `peak_rate` steps a second. */
+  peaks: string | null;
+  peak_rate: number;
   words: Span[];
   phones: Span[];
   common: Span[];
-  poses: string[];
-  weights: string;
   faces: FaceData[];
   /** The stretch to play over and over, in seconds; the visitor may choose another. */
   loop?: [number, number];
-  /** Begin to play as soon as there is something to see. */
+  /** Begin by itself when there is a new line to hear. */
   autoplay?: boolean;
   /** Smaller faces, and no lanes of poses. */
   compact?: boolean;
@@ -35,7 +37,11 @@ export interface StageData {
 export class Track {
   readonly frames: number;
 
-  constructor(readonly names: string[], readonly values: Float32Array, readonly fps: number) {
+  constructor(
+    readonly names: string[] = [],
+    readonly values: Float32Array = new Float32Array(0),
+    readonly fps = 60,
+  ) {
     this.frames = names.length ? values.length / names.length : 0;
   }
 
@@ -54,18 +60,24 @@ export class Track {
   }
 }
 
-function bytes(base64: string): Uint8Array {
-  return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+/** The track behind `url`: little-endian 32-bit floats. */
+export async function track(names: string[], url: string, fps: number): Promise<Track> {
+  return new Track(names, new Float32Array(await bytes(url)), fps);
 }
 
-/** Little-endian 32-bit floats. */
-export function floats(base64: string): Float32Array {
-  return new Float32Array(bytes(base64).buffer);
+/** One face with what it needs before it can be drawn. */
+export interface Loaded {
+  face: FaceData;
+  poses: Track;
+  shapes: Track;
 }
 
-/** Signed bytes: the lowest and the highest sample of each step of a waveform, in turn. */
-export function peaks(base64: string): Int8Array {
-  return new Int8Array(bytes(base64).buffer);
+export async function loaded(face: FaceData, fps: number): Promise<Loaded> {
+  const [poses, shapes] = await Promise.all([
+    track(face.poses, face.track, fps),
+    face.kind === "mesh" ? track(face.shapes, face.weights, fps) : new Track(),
+  ]);
+  return { face, poses, shapes };
 }
 
 /** The index of the span that `time` lies in, -1 for none; spans are in order and do not overlap. */

@@ -1,67 +1,73 @@
 // Waveform, words, phones and pose curves over one time axis, with the playhead on top.
 
-import { floats, peaks, Track, type Span, type StageData } from "./data";
+import { spanAt, type Loaded, type Span, type StageData } from "./data";
+import { rowsOf, xOf, type Axis, type Row, type Theme } from "./rows";
 
-const NAMES = 84; // width of the column of names
-const HEIGHTS = { wave: 44, spans: 20, pose: 30, axis: 18 };
-/** Okabe and Ito's colours, which people with any kind of colour vision can tell apart. */
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f"];
+const NARROW = 4; // pixels that a pointer may move and still be a click
+const SHORTEST = 0.02; // seconds of a loop
+const CLOSEST = 0.1; // seconds that fill the lanes
 const MARKED = "#e69f0055";
+
+export type Range = [start: number, end: number];
 
 export interface LaneEvents {
   seek(time: number): void;
-  select(range: [number, number] | null): void;
+  select(range: Range | null): void;
   pick(time: number): void;
 }
 
+/** Two canvases: what stays is painted when it changes, what moves is painted over it every frame. */
 export class Lanes {
   readonly root = document.createElement("div");
   private readonly still = document.createElement("canvas");
   private readonly moving = document.createElement("canvas");
   private data: StageData | null = null;
-  private track = new Track([], new Float32Array(0), 60);
-  private wave: Int8Array = new Int8Array(0);
-  private selection: [number, number] | null = null;
-  private from = 0;
-  private to = 1;
-  private pressed: { x: number; time: number } | null = null;
+  private rows: Row[] = [];
+  private theme: Theme = { ink: "#222", line: "#ccc", accent: "#0072b2", font: "12px sans-serif" };
+  private axis: Axis = { from: 0, to: 1, left: 84, right: 85 };
+  private selection: Range | null = null;
+  private pressed: { x: number; time: number; selects: boolean; moved: boolean } | null = null;
+  /** Times that all has been painted anew. */
+  painted = 0;
 
   constructor(private readonly events: LaneEvents) {
     this.root.className = "lanes";
-    this.root.tabIndex = -1;
     this.moving.className = "over";
+    this.moving.tabIndex = 0;
+    this.moving.setAttribute("role", "slider");
+    this.moving.setAttribute("aria-label", "Time");
+    this.moving.setAttribute("aria-valuemin", "0");
     this.root.append(this.still, this.moving);
     this.moving.addEventListener("pointerdown", (event) => this.press(event));
     this.moving.addEventListener("pointermove", (event) => this.drag(event));
     this.moving.addEventListener("pointerup", (event) => this.release(event));
-    this.moving.addEventListener("dblclick", () => this.choose(null));
-    this.moving.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
+    this.moving.addEventListener("pointercancel", () => (this.pressed = null));
+    this.moving.addEventListener("dblclick", (event) => this.chooseWord(event));
+    this.moving.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    // The colour of letters changes with the page's theme, and a change of it takes a (very short) transition.
+    this.root.addEventListener("transitionend", () => this.paint());
   }
 
-  show(data: StageData, selection: [number, number] | null = null): void {
+  show(data: StageData, faces: Loaded[], peaks: Int8Array, selection: Range | null): void {
+    const longer = this.data?.duration !== data.duration;
     this.data = data;
-    this.track = data.compact ? new Track([], new Float32Array(0), data.fps) : new Track(data.poses, floats(data.weights), data.fps);
-    this.wave = peaks(data.peaks);
-    [this.from, this.to] = [0, Math.max(data.duration, 0.1)];
+    this.rows = rowsOf(data, faces, peaks);
+    this.axis.left = faces.length > 1 ? 112 : 84;
+    if (longer) [this.axis.from, this.axis.to] = [0, Math.max(data.duration, CLOSEST)];
     this.selection = selection;
+    this.moving.setAttribute("aria-valuemax", data.duration.toFixed(2));
     this.resize();
   }
 
-  get height(): number {
-    const { wave, spans, pose, axis } = HEIGHTS;
-    return axis + (this.wave.length ? wave : 0) + this.rows.length * spans + this.track.names.length * pose;
-  }
-
-  /** The rows of spans that have anything to show. */
-  private get rows(): [string, Span[]][] {
-    const { words = [], phones = [], common = [] } = this.data ?? {};
-    return Object.entries({ words, phones, common }).filter(([, spans]) => spans.length);
+  private get height(): number {
+    return this.rows.reduce((sum, row) => sum + row.height, 0) + 2;
   }
 
   resize(): void {
     const width = this.root.clientWidth;
     const ratio = Math.min(devicePixelRatio, 2);
     this.root.style.height = `${this.height}px`;
+    this.axis.right = Math.max(width, this.axis.left + 1);
     for (const canvas of [this.still, this.moving]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(this.height * ratio);
@@ -70,205 +76,164 @@ export class Lanes {
     this.paint();
   }
 
-  private x(time: number): number {
-    return NAMES + ((time - this.from) / (this.to - this.from)) * (this.root.clientWidth - NAMES);
-  }
-
-  private time(event: PointerEvent | WheelEvent): number {
-    const box = this.moving.getBoundingClientRect();
-    const part = (event.clientX - box.left - NAMES) / (box.width - NAMES);
-    return Math.min(Math.max(this.from + part * (this.to - this.from), 0), this.data?.duration ?? 0);
+  private time(event: MouseEvent): number {
+    const { from, to, left, right } = this.axis;
+    const x = event.clientX - this.moving.getBoundingClientRect().left;
+    return Math.min(Math.max(from + ((x - left) / (right - left)) * (to - from), 0), this.data?.duration ?? 0);
   }
 
   private press(event: PointerEvent): void {
+    if (event.button) return;
     this.moving.setPointerCapture(event.pointerId);
-    this.pressed = { x: event.clientX, time: this.time(event) };
+    const ruler = event.clientY - this.moving.getBoundingClientRect().top < (this.rows[0]?.height ?? 0);
+    this.pressed = { x: event.clientX, time: this.time(event), selects: ruler || event.shiftKey, moved: false };
     this.events.seek(this.pressed.time);
   }
 
   private drag(event: PointerEvent): void {
     if (!this.pressed) return;
+    this.pressed.moved ||= Math.abs(event.clientX - this.pressed.x) > NARROW;
+    if (!this.pressed.moved) return;
     const time = this.time(event);
-    if (event.shiftKey) this.events.seek(time);
-    else if (Math.abs(event.clientX - this.pressed.x) > 4) {
-      this.choose([Math.min(time, this.pressed.time), Math.max(time, this.pressed.time)]);
-    }
+    if (this.pressed.selects) this.choose([Math.min(time, this.pressed.time), Math.max(time, this.pressed.time)]);
+    else this.events.seek(time);
   }
 
   private release(event: PointerEvent): void {
-    if (this.pressed && Math.abs(event.clientX - this.pressed.x) <= 4) this.events.pick(this.pressed.time);
+    if (this.pressed && !this.pressed.moved && event.detail < 2) this.events.pick(this.pressed.time);
     this.pressed = null;
   }
 
-  private choose(range: [number, number] | null): void {
-    this.selection = range && range[1] - range[0] > 0.02 ? range : null;
+  /** Loop the word, phone or common phone that was hit; anywhere else, loop nothing. */
+  private chooseWord(event: MouseEvent): void {
+    let y = event.clientY - this.moving.getBoundingClientRect().top;
+    const row = this.rows.find(({ height }) => (y -= height) < 0);
+    const spans = this.data?.[row?.name as "words"];
+    this.choose(Array.isArray(spans) ? this.spanOf(spans, this.time(event)) : null);
+  }
+
+  private spanOf(spans: Span[], time: number): Range | null {
+    const k = spanAt(spans, time);
+    return k < 0 ? null : [spans[k][0], spans[k][1]];
+  }
+
+  /** The word at `time`, else the whole line: what a loop begins with. */
+  around(time: number): Range {
+    const whole: Range = [0, this.data?.duration ?? 0];
+    return this.spanOf(this.data?.words ?? [], time) ?? whole;
+  }
+
+  /** Where the phone before or after `time` begins. */
+  phoneBeside(time: number, way: 1 | -1): number {
+    const starts = [0, ...(this.data?.common ?? []).flatMap(([start, end]) => [start, end])];
+    const found = starts.filter((start) => (way > 0 ? start > time + 1e-3 : start < time - 1e-3));
+    return way > 0 ? Math.min(...found, this.data?.duration ?? 0) : Math.max(...found, 0);
+  }
+
+  choose(range: Range | null): void {
+    this.selection = range && range[1] - range[0] > SHORTEST ? range : null;
     this.events.select(this.selection);
-    this.paint();
   }
 
   /** Zoom around the pointer; without Ctrl the page scrolls as always. */
-  private zoom(event: WheelEvent): void {
-    if (!event.ctrlKey || !this.data) return;
+  private wheel(event: WheelEvent): void {
+    if (!event.ctrlKey) return;
     event.preventDefault();
-    const at = this.time(event);
-    const factor = Math.exp(event.deltaY / 400);
-    const span = Math.min(Math.max((this.to - this.from) * factor, 0.1), this.data.duration);
-    this.from = Math.max(0, Math.min(at - (at - this.from) * (span / (this.to - this.from)), this.data.duration - span));
-    this.to = this.from + span;
+    this.zoom(Math.exp(event.deltaY / 400), this.time(event));
+  }
+
+  /** Show `factor` times as much, with `at` staying where it is; 0 shows everything. */
+  zoom(factor: number, at: number): void {
+    if (!this.data) return;
+    const whole = Math.max(this.data.duration, CLOSEST);
+    const { from, to } = this.axis;
+    const span = factor ? Math.min(Math.max((to - from) * factor, CLOSEST), whole) : whole;
+    this.scroll(at - (at - from) * (span / (to - from)), span, whole);
+  }
+
+  private scroll(from: number, span: number, whole: number): void {
+    this.axis.from = Math.max(0, Math.min(from, whole - span));
+    this.axis.to = this.axis.from + span;
     this.paint();
   }
 
-  private colour(name: string, fallback: string): string {
-    return getComputedStyle(this.root).getPropertyValue(name).trim() || fallback;
+  private readTheme(): void {
+    const style = getComputedStyle(this.root);
+    const read = (name: string, fallback: string): string => style.getPropertyValue(name).trim() || fallback;
+    this.theme = {
+      ink: style.color || "#222",
+      line: read("--st-border-color", "#ccc"),
+      accent: read("--st-primary-color", "#0072b2"),
+      font: `12px ${style.fontFamily || "sans-serif"}`,
+    };
   }
 
   private paint(): void {
     const pen = this.still.getContext("2d");
     if (!pen || !this.data) return;
-    const width = this.root.clientWidth;
-    const ink = this.colour("--st-text-color", "#222");
-    const line = this.colour("--st-border-color", "#ccc");
-    pen.clearRect(0, 0, width, this.height);
-    pen.font = "12px system-ui, sans-serif";
+    this.painted += 1;
+    this.readTheme();
+    const { left, right } = this.axis;
+    pen.clearRect(0, 0, right, this.height);
     pen.textBaseline = "middle";
-    for (const [start, end] of this.data.marks ?? []) {
-      pen.fillStyle = MARKED;
-      pen.fillRect(this.x(start), 0, this.x(end) - this.x(start), this.height);
-    }
-    if (this.selection) {
-      pen.fillStyle = this.colour("--st-primary-color", "#0072b2") + "22";
-      pen.fillRect(this.x(this.selection[0]), 0, this.x(this.selection[1]) - this.x(this.selection[0]), this.height);
-    }
-    let top = this.axis(pen, ink, line);
-    if (this.wave.length) top = this.waveform(pen, top, ink);
-    for (const [name, spans] of this.rows) {
-      top = this.spans(pen, top, name, spans, ink, line);
-    }
-    this.track.names.forEach((name, k) => {
-      top = this.curve(pen, top, name, k, ink, line);
-    });
-  }
-
-  private axis(pen: CanvasRenderingContext2D, ink: string, line: string): number {
-    const span = this.to - this.from;
-    const step = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60].find((s) => span / s <= 14) ?? 120;
-    pen.fillStyle = ink;
-    pen.strokeStyle = line;
-    pen.textAlign = "center";
-    for (let k = Math.ceil(this.from / step); k * step <= this.to; k++) {
-      const x = this.x(k * step);
-      pen.fillText(`${+(k * step).toFixed(2)}`, x, 8);
-      pen.beginPath();
-      pen.moveTo(x, 14);
-      pen.lineTo(x, this.height);
-      pen.globalAlpha = 0.4;
-      pen.stroke();
-      pen.globalAlpha = 1;
-    }
-    this.name(pen, "seconds", 8, ink);
-    return HEIGHTS.axis;
-  }
-
-  private name(pen: CanvasRenderingContext2D, text: string, y: number, ink: string): void {
+    pen.font = this.theme.font;
     pen.textAlign = "left";
-    pen.fillStyle = ink;
-    pen.fillText(text, 4, y, NAMES - 10);
-  }
-
-  private waveform(pen: CanvasRenderingContext2D, top: number, ink: string): number {
-    const middle = top + HEIGHTS.wave / 2;
-    const steps = this.wave.length / 2;
-    const rate = steps / (this.data?.duration || 1);
-    this.name(pen, "sound", middle, ink);
-    pen.fillStyle = ink;
-    pen.globalAlpha = 0.7;
-    for (let x = NAMES; x < this.root.clientWidth; x++) {
-      const time = (pixel: number): number => this.from + ((pixel - NAMES) / (this.root.clientWidth - NAMES)) * (this.to - this.from);
-      const first = Math.floor(time(x) * rate);
-      const last = Math.min(Math.max(Math.floor(time(x + 1) * rate), first + 1), steps);
-      let [low, high] = [0, 0];
-      for (let k = Math.max(first, 0); k < last; k++) {
-        low = Math.min(low, this.wave[2 * k]);
-        high = Math.max(high, this.wave[2 * k + 1]);
-      }
-      const scale = (HEIGHTS.wave / 2 - 2) / 127;
-      pen.fillRect(x, middle - high * scale, 1, Math.max((high - low) * scale, 1));
+    pen.fillStyle = this.theme.ink;
+    let top = 0;
+    for (const { name, height } of this.rows) {
+      pen.fillText(name, 4, top + height / 2, left - 8);
+      top += height;
     }
-    pen.globalAlpha = 1;
-    return top + HEIGHTS.wave;
-  }
-
-  private spans(pen: CanvasRenderingContext2D, top: number, name: string, spans: Span[], ink: string, line: string): number {
-    const middle = top + HEIGHTS.spans / 2;
-    this.name(pen, name, middle, ink);
-    pen.textAlign = "center";
-    pen.strokeStyle = line;
-    for (const [start, end, text] of spans) {
-      if (end < this.from || start > this.to) continue;
-      const [x, wide] = [Math.max(this.x(start), NAMES), this.x(end) - Math.max(this.x(start), NAMES)];
-      pen.strokeRect(x, top + 0.5, wide, HEIGHTS.spans - 1);
-      pen.fillStyle = ink;
-      if (wide > 5) pen.fillText(text, x + wide / 2, middle, wide - 2);
-    }
-    return top + HEIGHTS.spans;
-  }
-
-  private curve(pen: CanvasRenderingContext2D, top: number, name: string, k: number, ink: string, line: string): number {
-    const floor = top + HEIGHTS.pose - 3;
-    const tall = HEIGHTS.pose - 6;
-    this.name(pen, name, top + HEIGHTS.pose / 2, ink);
-    pen.strokeStyle = line;
-    pen.beginPath();
-    pen.moveTo(NAMES, floor);
-    pen.lineTo(this.root.clientWidth, floor);
-    pen.stroke();
-    const colour = COLOURS[k % COLOURS.length];
-    const first = Math.max(Math.floor(this.from * this.track.fps) - 1, 0);
-    const last = Math.min(Math.ceil(this.to * this.track.fps) + 1, this.track.frames - 1);
     pen.save();
     pen.beginPath();
-    pen.rect(NAMES, top, this.root.clientWidth - NAMES, HEIGHTS.pose);
+    pen.rect(left - 12, 0, right - left + 12, this.height);
     pen.clip();
-    pen.beginPath();
-    pen.moveTo(this.x(first / this.track.fps), floor);
-    for (let f = first; f <= last; f++) {
-      pen.lineTo(this.x(f / this.track.fps), floor - tall * this.track.values[f * this.track.names.length + k]);
+    pen.fillStyle = MARKED;
+    for (const [start, end] of this.data.marks ?? []) pen.fillRect(xOf(this.axis, start), 0, xOf(this.axis, end) - xOf(this.axis, start), this.height);
+    top = 0;
+    for (const row of this.rows) {
+      row.draw(pen, top, this.axis, this.theme);
+      top += row.height;
     }
-    pen.strokeStyle = colour;
-    pen.lineWidth = 1.5;
-    pen.stroke();
-    pen.lineTo(this.x(last / this.track.fps), floor);
-    pen.fillStyle = colour + "33";
-    pen.fill();
     pen.restore();
-    pen.lineWidth = 1;
-    return top + HEIGHTS.pose;
   }
 
-  /** The playhead, and the weights under it beside the names. */
-  playhead(time: number, weights: Float32Array): void {
+  /** Where the playhead stands, the stretch that loops, and the weights beside the names. */
+  playhead(time: number): void {
     const pen = this.moving.getContext("2d");
     if (!pen || !this.data) return;
-    if (time > this.to || time < this.from) {
-      const span = this.to - this.from;
-      if (span < this.data.duration - 1e-6) {
-        this.from = Math.max(0, Math.min(time - span * 0.1, this.data.duration - span));
-        this.to = this.from + span;
-        this.paint();
-      }
+    const { from, to, left, right } = this.axis;
+    const [span, whole] = [to - from, Math.max(this.data.duration, CLOSEST)];
+    if ((time > to || time < from) && span < whole - 1e-6) this.scroll(time - span * 0.1, span, whole);
+    pen.clearRect(0, 0, right, this.height);
+    if (this.selection) {
+      const [start, end] = this.selection.map((each) => Math.min(Math.max(xOf(this.axis, each), left), right));
+      pen.globalAlpha = 0.18;
+      pen.fillStyle = this.theme.accent;
+      pen.fillRect(start, 0, end - start, this.height);
+      pen.globalAlpha = 1;
     }
-    const width = this.root.clientWidth;
-    pen.clearRect(0, 0, width, this.height);
-    const x = this.x(time);
-    pen.fillStyle = this.colour("--st-primary-color", "#0072b2");
-    pen.fillRect(x - 0.75, 0, 1.5, this.height);
-    pen.font = "11px system-ui, sans-serif";
+    pen.fillStyle = this.theme.accent;
+    pen.fillRect(xOf(this.axis, time) - 0.75, 0, 1.5, this.height);
+    pen.font = this.theme.font;
+    pen.fillStyle = this.theme.ink;
     pen.textAlign = "right";
     pen.textBaseline = "middle";
-    let top = this.height - this.track.names.length * HEIGHTS.pose;
-    weights.subarray(0, this.track.names.length).forEach((weight) => {
-      if (weight >= 0.005) pen.fillText(weight.toFixed(2), NAMES - 4, top + HEIGHTS.pose / 2);
-      top += HEIGHTS.pose;
+    let top = 0;
+    for (const { height, value } of this.rows) {
+      const text = value?.(time);
+      if (text) pen.fillText(text, left - 4, top + height / 2);
+      top += height;
+    }
+  }
+
+  /** Tell people who hear the page where time stands. */
+  tell(time: number): void {
+    const now = ["words", "phones"].map((name) => {
+      const spans = this.data?.[name as "words"] ?? [];
+      return spans[spanAt(spans, time)]?.[2] ?? "";
     });
+    this.moving.setAttribute("aria-valuenow", time.toFixed(2));
+    this.moving.setAttribute("aria-valuetext", [`${time.toFixed(2)} seconds`, ...now.filter(Boolean)].join(", "));
   }
 }

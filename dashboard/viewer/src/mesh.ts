@@ -1,45 +1,25 @@
 // A character's mesh, drawn from one or several sides.
 
 import {
-  ACESFilmicToneMapping, Box3, DirectionalLight, Group, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Box3, DirectionalLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  type Group, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { floats, Track, type FaceData } from "./data";
+import { Track, type Loaded } from "./data";
+import { bytes } from "./files";
 import { Morph } from "./morph";
+import { Pace } from "./pace";
 
 /** Degrees around the head at which a view stands; the first one can be turned by hand. */
-export const VIEWS: Record<string, number[]> = { front: [0], "¾": [38], side: [90], all: [0, 38, 90] };
+export const VIEWS = { front: [0], "¾": [38], side: [90], all: [0, 38, 90] } satisfies Record<string, number[]>;
+export type ViewName = keyof typeof VIEWS;
 const FIELD = 24;
 
 /** How much more than what moves is shown. */
 const ROOM = 0.66;
-
-/** What a slow machine may leave of the picture's width and height, so that the mouth keeps moving. */
-const COARSEST = 0.3;
-const SLOW = 45; // milliseconds a frame: less than 22 a second
-const GAP = 1500; // a longer wait is no slow frame, but none
-
-/** Whether drawing keeps up, judged on the middle of eight frames in a row. */
-class Pace {
-  private last = 0;
-  private waits: number[] = [];
-
-  tooSlow(): boolean {
-    const now = performance.now();
-    const wait = now - this.last;
-    this.last = now;
-    if (wait > GAP) this.waits = [];
-    else this.waits.push(wait);
-    if (this.waits.length < 8) return false;
-    const middle = [...this.waits].sort((a, b) => a - b)[4];
-    this.waits = [];
-    return middle > SLOW;
-  }
-}
-
-type MeshFace = Extract<FaceData, { kind: "mesh" }>;
+const REST = 500; // milliseconds of standing still after which a coarse picture is drawn once more, sharp
 
 export class MeshView {
   readonly canvas = document.createElement("canvas");
@@ -51,45 +31,66 @@ export class MeshView {
   private model: Group | null = null;
   private moving: { part: Mesh; morph: Morph }[] = [];
   private url = "";
-  private angles = VIEWS.front;
+  private angles: number[] = VIEWS.front;
   private centre = new Vector3();
   private radius = 1;
-  private track = new Track([], new Float32Array(0), 60);
+  private track = new Track();
   private pace = new Pace();
-  private sharpness = 1;
+  private drawn = 0;
+  private coarse = false;
   dirty = true;
+  /** Kept when there is something to see, or an error to read. */
+  ready: Promise<void> = Promise.resolve();
 
+  /** `failed` hears why there is no face to see; "" takes it back. Throws where the browser has no WebGL. */
   constructor(private readonly failed: (why: string) => void) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.scene.environment = new PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04).texture;
+    this.light();
+    this.controls = new OrbitControls(this.cameras[0], this.canvas);
+    this.controls.enablePan = false;
+    this.controls.addEventListener("change", () => (this.dirty = true));
+    // Without Ctrl the wheel scrolls the page, as everywhere.
+    this.canvas.addEventListener("wheel", (event) => (this.controls.enableZoom = event.ctrlKey), { capture: true, passive: true });
+    this.canvas.addEventListener("dblclick", () => this.look(this.angles));
+    this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.light();
+      this.dirty = true;
+    });
+  }
+
+  private light(): void {
+    this.scene.clear();
+    const maker = new PMREMGenerator(this.renderer);
+    this.scene.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
+    maker.dispose();
     this.scene.environmentIntensity = 0.55;
     for (const [colour, strength, x, y, z] of [[0xfff0dc, 2.2, -1.5, 1.6, 2.4], [0xcfe0ff, 1.4, 1.2, 1.5, -2]]) {
       const light = new DirectionalLight(colour, strength);
       light.position.set(x, y, z);
       this.scene.add(light);
     }
-    this.controls = new OrbitControls(this.cameras[0], this.canvas);
-    this.controls.enablePan = false;
-    this.controls.addEventListener("change", () => (this.dirty = true));
-    this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-    this.canvas.addEventListener("webglcontextrestored", () => (this.dirty = true));
+    if (this.model) this.scene.add(this.model);
   }
 
-  show(face: MeshFace, fps: number): void {
-    this.track = new Track(face.shapes, floats(face.weights), fps);
-    this.weights = new Float32Array(face.shapes.length);
+  show({ face, shapes }: Loaded): void {
+    if (face.kind !== "mesh") return;
+    this.track = shapes;
+    this.weights = new Float32Array(shapes.names.length);
     if (face.url === this.url) this.connect();
-    else void this.load(face.url);
+    else this.ready = this.load(face.url);
     this.dirty = true;
   }
 
   private async load(url: string): Promise<void> {
     this.url = url;
+    this.canvas.classList.add("loading");
     try {
-      const loaded = await new GLTFLoader().loadAsync(url);
+      const loaded = await new GLTFLoader().parseAsync(await bytes(url), "");
       if (this.url !== url) return; // another face was asked for meanwhile
-      if (this.model) this.scene.remove(this.model);
+      if (this.model) free(this.model);
+      this.model?.removeFromParent();
       this.model = loaded.scene;
       this.scene.add(this.model);
       this.moving = [];
@@ -98,7 +99,10 @@ export class MeshView {
       });
       this.connect();
       this.frame();
+      this.canvas.classList.remove("loading");
     } catch (error) {
+      if (this.url !== url) return;
+      this.url = "";
       this.failed(`The face could not be loaded (${error instanceof Error ? error.message : String(error)}). Reload the page.`);
     }
   }
@@ -126,7 +130,9 @@ export class MeshView {
 
   look(angles: number[]): void {
     this.angles = angles;
-    const distance = this.radius / Math.sin((FIELD / 2) * (Math.PI / 180)) * 0.86;
+    const tall = (FIELD / 2) * (Math.PI / 180);
+    const wide = Math.atan(Math.tan(tall) * Math.min(this.aspect, 1)); // a narrow picture is as far away as it takes
+    const distance = (this.radius / Math.sin(wide)) * 0.86;
     this.cameras.forEach((camera, k) => {
       const angle = ((angles[k] ?? 0) * Math.PI) / 180;
       camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(distance).add(this.centre);
@@ -139,28 +145,37 @@ export class MeshView {
     this.dirty = true;
   }
 
+  private get aspect(): number {
+    return this.canvas.clientWidth / this.angles.length / Math.max(this.canvas.clientHeight, 1) || 1;
+  }
+
   resize(width: number, height: number): void {
-    const size = this.canvas;
-    const ratio = Math.min(devicePixelRatio, 2) * this.sharpness;
-    if (size.width === Math.round(width * ratio) && size.height === Math.round(height * ratio)) return;
+    this.size(width, height, this.coarse ? this.pace.sharpness : 1);
+  }
+
+  private size(width: number, height: number, sharpness: number): void {
+    const ratio = Math.min(devicePixelRatio, 2) * sharpness;
+    this.coarse = sharpness < 1;
+    if (this.canvas.width === Math.floor(width * ratio) && this.canvas.height === Math.floor(height * ratio)) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.dirty = true;
   }
 
-  draw(time: number): void {
-    if (this.pace.tooSlow() && this.sharpness > COARSEST) {
-      this.sharpness = Math.max(this.sharpness * 0.7, COARSEST);
-      this.resize(this.canvas.clientWidth, this.canvas.clientHeight);
-    }
+  /** Called for every frame of the screen; `playing` when many of them follow each other. */
+  draw(time: number, playing: boolean): void {
+    const now = performance.now();
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    if (playing) this.pace.frame(now);
+    if (playing || this.pace.sharpness === 1) this.size(width, height, this.pace.sharpness);
+    this.drawn = now;
     this.track.at(time, this.weights);
     this.moving.forEach(({ morph }) => morph.apply(this.weights));
-    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const part = width / this.angles.length;
     this.renderer.setScissorTest(true);
     this.angles.forEach((_, k) => {
       const camera = this.cameras[k];
-      camera.aspect = part / height;
+      camera.aspect = this.aspect;
       camera.updateProjectionMatrix();
       this.renderer.setViewport(k * part, 0, part, height);
       this.renderer.setScissor(k * part, 0, part, height);
@@ -169,15 +184,33 @@ export class MeshView {
     this.dirty = false;
   }
 
-  /** The weight of every shape as it was drawn last, and how many of them move something. */
-  get state(): { shapes: Record<string, number>; moving: number } {
+  /** A picture that was drawn coarse to keep up becomes sharp once nothing moves. */
+  rest(): void {
+    if (!this.coarse || performance.now() - this.drawn < REST) return;
+    this.size(this.canvas.clientWidth, this.canvas.clientHeight, 1);
+  }
+
+  /** The weight of every shape as it was drawn last, how many of them move something, and how sharp playing is. */
+  get state(): { shapes: Record<string, number>; moving: number; sharpness: number } {
     const shapes = Object.fromEntries(this.track.names.map((name, k) => [name, this.weights[k]]));
-    return { shapes, moving: this.track.names.filter((_, k) => this.moving.some(({ morph }) => morph.moves(k))).length };
+    const moving = this.track.names.filter((_, k) => this.moving.some(({ morph }) => morph.moves(k))).length;
+    return { shapes, moving, sharpness: this.pace.sharpness };
   }
 
   dispose(): void {
-    this.controls.dispose();
-    this.renderer.dispose();
     this.url = "";
+    this.controls.dispose();
+    if (this.model) free(this.model);
+    this.scene.environment?.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss(); // browsers allow sixteen at a time
   }
+}
+
+function free(model: Object3D): void {
+  model.traverse((part) => {
+    if (!(part instanceof Mesh)) return;
+    part.geometry.dispose();
+    for (const material of [part.material].flat() as Material[]) material.dispose();
+  });
 }

@@ -29,7 +29,7 @@ export class Morph {
   private readonly names: Record<string, number>;
   private readonly layers: { attribute: BufferAttribute; rest: Float32Array; targets: Sparse[] }[] = [];
   private columns: number[] = [];
-  private shown = "";
+  private shown = new Float32Array(0);
 
   constructor(part: Mesh) {
     this.names = part.morphTargetDictionary ?? {};
@@ -59,7 +59,7 @@ export class Morph {
   /** Which target each of `names` moves. */
   connect(names: string[]): void {
     this.columns = names.map((name) => this.names[name] ?? -1);
-    this.shown = "";
+    this.shown = new Float32Array(names.length).fill(NaN);
   }
 
   /** Whether the name at `column` moves anything here. */
@@ -68,9 +68,8 @@ export class Morph {
   }
 
   apply(weights: Float32Array): void {
-    const key = weights.join();
-    if (key === this.shown) return;
-    this.shown = key;
+    if (this.shown.every((weight, k) => weight === weights[k])) return;
+    this.shown.set(weights);
     for (const { attribute, rest, targets } of this.layers) {
       const values = attribute.array as Float32Array;
       values.set(rest);

@@ -1,30 +1,28 @@
 // A flat mouth: one picture at a time.
 
-import { spanAt, type FaceData, type Span } from "./data";
-
-type PictureFace = Extract<FaceData, { kind: "pictures" }>;
+import { spanAt, type Loaded, type Span } from "./data";
+import { address } from "./files";
 
 export class PictureView {
   readonly canvas = document.createElement("div");
   shown = "";
   dirty = true;
+  readonly ready = Promise.resolve();
   private cues: Span[] = [];
   private images = new Map<string, HTMLImageElement>();
   private urls = "";
 
-  show(face: PictureFace): void {
+  constructor() {
+    this.canvas.className = "pictures";
+  }
+
+  show({ face }: Loaded): void {
+    if (face.kind !== "pictures") return;
     this.cues = face.cues;
     const urls = JSON.stringify(face.pictures);
     if (urls !== this.urls) {
       this.urls = urls;
-      this.images = new Map(
-        Object.entries(face.pictures).map(([shape, url]) => {
-          const image = new Image();
-          image.src = url;
-          image.alt = shape;
-          return [shape, image];
-        }),
-      );
+      this.images = new Map(Object.entries(face.pictures).map(([shape, url]) => [shape, picture(shape, url)]));
       this.canvas.replaceChildren(...this.images.values());
     }
     this.shown = "";
@@ -41,7 +39,19 @@ export class PictureView {
     for (const [name, image] of this.images) image.hidden = name !== shape;
   }
 
+  get state(): { shown: string } {
+    return { shown: this.shown };
+  }
+
   look(): void {}
   resize(): void {}
   dispose(): void {}
+}
+
+function picture(shape: string, url: string): HTMLImageElement {
+  const image = new Image();
+  image.src = address(url);
+  image.alt = `mouth shape ${shape}`;
+  image.hidden = true;
+  return image;
 }

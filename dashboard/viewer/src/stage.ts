@@ -1,10 +1,11 @@
 // The stage: one or two faces, sound, and lanes under them, all on one clock.
 
 import { Clock } from "./clock";
-import { floats, Track, type FaceData, type StageData } from "./data";
-import { icon } from "./icons";
+import { Controls } from "./controls";
+import { loaded, Track, type Loaded, type StageData } from "./data";
+import { bytes } from "./files";
 import { Lanes } from "./lanes";
-import { MeshView, VIEWS } from "./mesh";
+import { MeshView, VIEWS, type ViewName } from "./mesh";
 import { PictureView } from "./pictures";
 
 interface Component {
@@ -15,15 +16,12 @@ interface Component {
 }
 
 type View = MeshView | PictureView;
-const SPEEDS = [0.25, 0.5, 0.75, 1];
+const LATELY = 0.1; // how much of the mean the last frame makes
 
-function button(face: string | SVGElement, title: string, act: () => void): HTMLButtonElement {
-  const made = document.createElement("button");
-  made.type = "button";
-  made.append(face);
-  made.title = title;
-  made.setAttribute("aria-label", typeof face === "string" ? face : title);
-  made.addEventListener("click", act);
+function element(name: string, role = ""): HTMLDivElement {
+  const made = document.createElement("div");
+  made.className = name;
+  if (role) made.setAttribute("role", role);
   return made;
 }
 
@@ -31,201 +29,221 @@ function button(face: string | SVGElement, title: string, act: () => void): HTML
 export class Stage {
   readonly clock: Clock;
   private readonly audio = document.createElement("audio");
-  private readonly faces = document.createElement("div");
-  private readonly trouble = document.createElement("div");
-  private readonly time = document.createElement("span");
-  private readonly play: HTMLButtonElement;
+  private readonly faces = element("faces");
+  private readonly trouble = element("trouble", "status");
+  private readonly controls: Controls;
   private readonly lanes: Lanes;
   private readonly watcher: ResizeObserver;
   private views: View[] = [];
   private kinds = "";
-  private track = new Track([], new Float32Array(0), 60);
+  private poses = new Track();
   private now = new Float32Array(0);
   private id = "";
   private drawn = -1;
-  private request = 0;
-  private angles = VIEWS.front;
+  private changed = true;
+  private view: ViewName = "front";
   private component: Component | null = null;
-  /** Frames drawn in the last second. */
-  rate = 0;
-  private frames = 0;
-  private since = performance.now();
+  private request = 0;
+  private last = 0;
+  private told = 0;
+  /** Milliseconds between frames, and what faces and lanes take of it on the processor: means of the last ones played. */
+  private readonly pace = { frame: 0, faces: 0, lanes: 0 };
 
   constructor(private readonly root: HTMLElement) {
-    root.tabIndex = 0;
-    this.clock = new Clock(this.audio);
-    this.faces.className = "faces";
-    this.trouble.className = "trouble";
-    this.trouble.setAttribute("role", "status");
-    this.time.className = "clock";
+    root.setAttribute("role", "group");
+    root.setAttribute("aria-label", "Player");
+    this.clock = new Clock(this.audio, () => this.complain("The sound could not be loaded; the line plays without it. Reload the page."));
     this.lanes = new Lanes({
       seek: (time) => this.clock.seek(time),
-      select: (range) => (this.clock.loop = range),
+      select: (range) => this.repeat(range),
       pick: (time) => this.component?.setTriggerValue("pick", Math.round(time * 1e4) / 1e4),
     });
-    this.play = button("Play", "Play or pause (space)", () => this.toggle());
-    this.play.className = "play";
-    root.replaceChildren(this.faces, this.controls(), this.trouble, this.lanes.root, this.audio);
-    root.addEventListener("keydown", (event) => this.key(event));
+    this.controls = new Controls({
+      toggle: () => (this.clock.playing ? this.clock.pause() : this.clock.play()),
+      start: () => this.clock.seek(this.clock.loop?.[0] ?? 0),
+      end: () => this.clock.seek(this.clock.loop?.[1] ?? this.clock.duration),
+      step: (frames) => this.step(frames),
+      phone: (way) => this.clock.seek(this.lanes.phoneBeside(this.clock.time, way)),
+      speed: (value) => this.clock.setSpeed(value),
+      loop: () => this.lanes.choose(this.clock.loop ? null : this.lanes.around(this.clock.time)),
+      mute: () => this.mute(),
+      zoom: (factor) => this.zoom(factor),
+      look: (view) => this.look(view),
+    });
+    const scene = element("scene");
+    scene.append(this.faces, this.controls.look);
+    root.replaceChildren(scene, this.controls.root, this.trouble, this.lanes.root, this.audio);
+    root.addEventListener("keydown", (event) => this.controls.key(event));
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(root);
-    this.tick();
+    this.tick(0);
   }
 
-  private controls(): HTMLElement {
-    const row = document.createElement("div");
-    row.className = "controls";
-    const speeds = SPEEDS.map((speed) => button(`${speed}×`, `Play at ${speed} of the speed`, () => choose(speed)));
-    const views = Object.entries(VIEWS).map(([name, angles]) => button(name, `Look from: ${name}`, () => look(name, angles)));
-    const choose = (speed: number): void => {
-      this.clock.setSpeed(speed);
-      speeds.forEach((each, k) => each.setAttribute("aria-pressed", String(SPEEDS[k] === speed)));
-    };
-    const look = (name: string, angles: number[]): void => {
-      this.angles = angles;
-      this.views.forEach((view) => view.look(angles));
-      views.forEach((each) => each.setAttribute("aria-pressed", String(each.textContent === name)));
-    };
-    choose(1);
-    look("front", VIEWS.front);
-    const space = document.createElement("span");
-    space.className = "space";
-    row.append(
-      this.play,
-      button(icon("start"), "To the start (Home)", () => this.clock.seek(this.clock.loop?.[0] ?? 0)),
-      button(icon("back"), "One frame back (←)", () => this.step(-1)),
-      button(icon("on"), "One frame on (→)", () => this.step(1)),
-      this.time,
-      ...speeds,
-      space,
-      ...views,
-    );
-    return row;
+  private complain(why: string): void {
+    this.trouble.textContent = why;
+    this.changed = true;
   }
 
-  private toggle(): void {
-    if (this.clock.playing) this.clock.pause();
-    else void this.clock.play();
+  private repeat(range: [number, number] | null): void {
+    this.clock.loop = range;
+    this.changed = true;
+  }
+
+  private mute(): void {
+    this.clock.mute();
+    this.changed = true;
+  }
+
+  private zoom(factor: number): void {
+    this.lanes.zoom(factor, this.clock.time);
+    this.changed = true;
   }
 
   private step(frames: number): void {
     this.clock.pause();
-    this.clock.seek((Math.round(this.clock.time * this.track.fps) + frames) / this.track.fps);
+    this.clock.seek((Math.round(this.clock.time * this.poses.fps) + frames) / this.poses.fps);
   }
 
-  private label(): void {
-    const what = this.clock.playing ? "Pause" : "Play";
-    if (this.play.getAttribute("aria-label") === what && this.play.childElementCount) return;
-    this.play.setAttribute("aria-label", what);
-    this.play.replaceChildren(icon(this.clock.playing ? "pause" : "play"), ` ${what}`);
-  }
-
-  private key(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const acts: Record<string, () => void> = {
-      " ": () => this.toggle(),
-      ArrowLeft: () => this.step(-1),
-      ArrowRight: () => this.step(1),
-      Home: () => this.clock.seek(0),
-      End: () => this.clock.seek(this.clock.duration),
-    };
-    const act = acts[event.key];
-    if (!act || (event.key === " " && event.target instanceof HTMLButtonElement)) return;
-    event.preventDefault();
-    act();
+  private look(view: ViewName): void {
+    this.view = view;
+    this.views.forEach((each) => each.look(VIEWS[view]));
   }
 
   update(component: Component): void {
     this.component = component;
     const { data } = component;
     if (data.id === this.id) return;
-    const [begins, stays] = [!this.id, this.clock.duration === data.duration];
     this.id = data.id;
-    this.root.classList.toggle("compact", data.compact ?? false);
-    this.trouble.textContent = "";
-    this.track = new Track(data.poses, floats(data.weights), data.fps);
-    this.now = new Float32Array(data.poses.length);
-    this.clock.load(data.audio, data.duration);
-    this.clock.loop = data.loop ?? (stays ? this.clock.loop : null);
-    this.show(data.faces, data.fps);
-    this.lanes.show(data, this.clock.loop);
-    this.drawn = -1;
-    if (begins && data.autoplay) void this.clock.play();
+    void this.take(data);
   }
 
-  private show(faces: FaceData[], fps: number): void {
-    const kinds = faces.map((face) => face.kind).join(" ");
+  private async take(data: StageData): Promise<void> {
+    try {
+      const [peaks, ...faces] = await Promise.all([
+        data.peaks ? bytes(data.peaks) : new ArrayBuffer(0),
+        ...data.faces.map((face) => loaded(face, data.fps)),
+      ]);
+      if (data.id === this.id) this.show(data, faces, new Int8Array(peaks)); // else another line was asked for meanwhile
+    } catch (error) {
+      if (data.id !== this.id) return;
+      this.id = "";
+      this.complain(`The line could not be loaded (${error instanceof Error ? error.message : String(error)}). Reload the page.`);
+    }
+  }
+
+  private show(data: StageData, faces: Loaded[], peaks: Int8Array): void {
+    this.trouble.textContent = "";
+    this.root.classList.toggle("compact", data.compact ?? false);
+    this.poses = faces[0].poses;
+    this.now = new Float32Array(this.poses.names.length);
+    const other = this.clock.load(data.audio, data.duration);
+    this.clock.loop = data.loop ?? (other ? null : this.clock.loop);
+    this.stand(faces);
+    this.lanes.show(data, faces, peaks, this.clock.loop);
+    this.changed = true;
+    if (data.autoplay && other) void this.begin(data.id);
+  }
+
+  /** Play a new line once its faces stand, unless the visitor was quicker or wants nothing to move by itself. */
+  private async begin(id: string): Promise<void> {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+    await Promise.all(this.views.map((view) => view.ready));
+    if (id === this.id && !this.clock.playing && this.clock.time === 0) this.clock.play();
+  }
+
+  private stand(faces: Loaded[]): void {
+    const kinds = faces.map(({ face }) => face.kind).join(" ");
     if (kinds !== this.kinds) {
       this.views.forEach((view) => view.dispose());
+      this.views = [];
       this.kinds = kinds;
-      this.views = faces.map((face) => this.make(face));
-      this.faces.replaceChildren(
-        ...this.views.map((view) => {
-          const figure = document.createElement("figure");
-          figure.className = "face";
-          figure.style.margin = "0";
-          figure.append(view.canvas, document.createElement("figcaption"));
-          return figure;
-        }),
-      );
+      const figures = faces.map(({ face }) => {
+        const figure = document.createElement("figure");
+        figure.className = "face";
+        const view = this.make(face.kind);
+        if (view) this.views.push(view);
+        figure.append(view?.canvas ?? element("pictures"), document.createElement("figcaption"));
+        return figure;
+      });
+      this.faces.replaceChildren(...figures);
     }
-    faces.forEach((face, k) => {
-      const view = this.views[k];
-      if (view instanceof MeshView && face.kind === "mesh") view.show(face, fps);
-      if (view instanceof PictureView && face.kind === "pictures") view.show(face);
-      view.look(this.angles);
-      view.canvas.setAttribute("aria-label", face.title);
-      const caption = view.canvas.nextElementSibling;
-      if (caption) caption.textContent = face.title;
+    [...this.faces.children].forEach((figure, k) => {
+      const { title } = faces[k].face;
+      figure.firstElementChild?.setAttribute("role", "img");
+      figure.firstElementChild?.setAttribute("aria-label", `${title}, speaking`);
+      if (figure.lastElementChild) figure.lastElementChild.textContent = title;
     });
+    this.controls.turnable(this.views.some((view) => view instanceof MeshView));
+    this.views.forEach((view, k) => view.show(faces[k]));
     this.resize();
+    this.look(this.view);
   }
 
-  private make(face: FaceData): View {
-    if (face.kind === "mesh") {
-      return new MeshView((why) => {
-        this.trouble.textContent = why;
-      });
+  private make(kind: "mesh" | "pictures"): View | null {
+    if (kind === "pictures") return new PictureView();
+    try {
+      return new MeshView((why) => this.complain(why));
+    } catch {
+      this.complain("This browser draws no 3D (WebGL is off or not there): turn on hardware acceleration, or choose the flat mouth.");
+      return null;
     }
-    const view = new PictureView();
-    view.canvas.className = "pictures";
-    return view;
   }
 
   private resize(): void {
     this.views.forEach((view) => view.resize(view.canvas.clientWidth, view.canvas.clientHeight));
     this.lanes.resize();
-    this.drawn = -1;
+    this.changed = true;
   }
 
-  private tick(): void {
-    this.request = requestAnimationFrame(() => this.tick());
+  private tick(now: number): void {
+    this.request = requestAnimationFrame((next) => this.tick(next));
     this.clock.tick();
-    const time = this.clock.time;
-    this.label();
-    const dirty = this.views.some((view) => view.dirty);
-    if (time === this.drawn && !dirty) return;
+    const { time, playing } = this.clock;
+    const passed = now - this.last;
+    this.last = now;
+    this.controls.show({
+      time,
+      playing,
+      duration: this.clock.duration,
+      looping: this.clock.loop !== null,
+      muted: this.clock.muted,
+      hushed: this.clock.hushed,
+      sounding: this.clock.sounding,
+    });
+    if (now - this.told > 500) {
+      this.told = now;
+      this.lanes.tell(time);
+    }
+    if (time === this.drawn && !this.changed && !this.views.some((view) => view.dirty)) {
+      for (const view of this.views) if (view instanceof MeshView) view.rest();
+      return;
+    }
+    const began = performance.now();
+    this.views.forEach((view) => view.draw(time, playing));
+    const between = performance.now();
+    this.poses.at(time, this.now);
+    this.lanes.playhead(time);
     this.drawn = time;
-    this.views.forEach((view) => view.draw(time));
-    this.lanes.playhead(time, this.track.at(time, this.now));
-    this.time.textContent = `${time.toFixed(2)} s of ${this.clock.duration.toFixed(2)} s`;
-    this.frames += 1;
-    const passed = performance.now() - this.since;
-    if (passed > 1000) {
-      this.rate = (this.frames * 1000) / passed;
-      this.frames = 0;
-      this.since = performance.now();
+    this.changed = false;
+    if (playing) this.measure(passed, between - began, performance.now() - between);
+  }
+
+  private measure(frame: number, faces: number, lanes: number): void {
+    for (const [name, value] of Object.entries({ frame, faces, lanes }) as ["frame" | "faces" | "lanes", number][]) {
+      this.pace[name] += (this.pace[name] ? LATELY : 1) * (value - this.pace[name]);
     }
   }
 
   /** What is shown now: for tests, and for people who measure. */
-  get state(): { time: number; playing: boolean; rate: number; poses: Record<string, number>; faces: unknown[] } {
+  get state(): { time: number; playing: boolean; hushed: boolean; poses: Record<string, number>; faces: unknown[]; pace: object; painted: number } {
     return {
       time: this.drawn,
       playing: this.clock.playing,
-      rate: this.rate,
-      poses: Object.fromEntries(this.track.names.map((name, k) => [name, this.now[k]])),
-      faces: this.views.map((view) => (view instanceof MeshView ? view.state : { shown: view.shown })),
+      hushed: this.clock.hushed,
+      poses: Object.fromEntries(this.poses.names.map((name, k) => [name, this.now[k]])),
+      faces: this.views.map((view) => view.state),
+      pace: { ...this.pace },
+      painted: this.lanes.painted,
     };
   }
 
@@ -233,6 +251,7 @@ export class Stage {
     cancelAnimationFrame(this.request);
     this.watcher.disconnect();
     this.clock.pause();
+    this.id = "";
     this.views.forEach((view) => view.dispose());
   }
 }
