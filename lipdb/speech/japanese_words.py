@@ -1,8 +1,8 @@
 """Japanese text to words with their kana, and pauses.
 
 Words and readings come from Open JTalk's dictionary through pyopenjtalk-plus (MIT; its dictionary is part of the wheel, and
-nothing is downloaded). Of 110 sentences of Common Voice that it and UniDic (unidic-lite) read differently, it is wrong in 9
-and UniDic in 22, by eye; elsewhere both may be said. Without the package only kana are read. A table of the language
+nothing is downloaded). Of 110 sentences of Common Voice that it and UniDic (unidic-lite) read differently, it is wrong in 8
+and UniDic in 23, by eye; elsewhere both may be said. Without the package only kana are read. A table of the language
 (``readings.tsv``) goes first.
 """
 
