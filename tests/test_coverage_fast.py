@@ -14,11 +14,12 @@ from hypothesis import strategies as st
 
 from lipdb.coverage.align import align
 from lipdb.coverage.codes import UNKNOWN, Codes
-from lipdb.coverage.context import CONSONANT, VOWEL, Context, learn
+from lipdb.coverage.context import CONSONANT, KINDS, PAUSE, VOWEL, Context
 from lipdb.coverage.counts import Counts, Lines
 from lipdb.coverage.error import distance
 from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.fast import FastCounter, fast_counter
+from lipdb.coverage.learn import learn
 from lipdb.coverage.lexicon import Lexicon
 from lipdb.coverage.lexicon_files import keep, open_lexicon
 from lipdb.coverage.words import cut, keys_of
@@ -92,6 +93,8 @@ def words_of(*texts: str) -> list[str]:
         (["Straße, él Ünü"], ["Straße", "él", "Ünü"]),
         (["你好，A4纸2008年ok"], ["你", "好", "A4", "纸", "2008", "年", "ok"]),
         (["𠀀a"], ["𠀀", "a"]),
+        (["في ٢٠٠٨ و٣,٥"], ["في", "٢٠٠٨", "و٣,٥"]),
+        (["नमस्ते। १२"], ["नमस्ते", "१२"]),
         (["", "😀️", "…"], []),
     ],
 )
@@ -145,12 +148,24 @@ def test_where_words_stand_alone_fast_is_exact() -> None:
 def test_what_running_speech_does_to_words_is_learned() -> None:
     voice = Letters(elides=True)
     context = learn(Lexicon(voice), TEXT * 2)
-    assert ("the", CONSONANT, "t h") in context.readings
-    assert not [reading for reading in context.readings if reading[:2] == ("the", VOWEL)]
+    assert context.usual("t r e e", PAUSE * KINDS + CONSONANT) == "t r e"
+    assert context.usual("t r e e", PAUSE * KINDS + VOWEL) == "t r e e"
     given = lines("the cat, some are some trees", "the, end")
     assert counter(voice, context).count(given).pairs != counter(voice).count(given).pairs
     given = lines("the cat and the apple, the")
     assert counter(voice, context).count(given).pairs == ExactCounter(voice).count(given).pairs
+
+
+def test_other_words_do_what_more_than_half_of_the_words_do() -> None:
+    voice = Letters(elides=True)
+    context = learn(Lexicon(voice), ["the cat", "some cat", "one cat", "are cat", "see me"])
+    assert context.tails == (("e", CONSONANT, ""),)
+    given = lines("three trees and three apples, three")
+    assert counter(voice, context).count(given).pairs == ExactCounter(voice).count(given).pairs
+
+
+def test_nothing_is_learned_from_nothing() -> None:
+    assert learn(Lexicon(Letters()), []) == learn(Lexicon(Letters()), ["…"]) == Context()
 
 
 @given(st.lists(st.sampled_from(TEXT), min_size=1, max_size=12), st.integers(1, 4), st.data())
@@ -212,9 +227,8 @@ def test_a_damaged_file_of_answers_is_done_without(tmp_path: Path) -> None:
     assert len(open_lexicon(Letters(), tmp_path)) == 0
 
 
-@pytest.mark.parametrize("language", ["cmn", "de", "en", "es"])
-def test_shipped_languages_are_counted_within_two_per_cent(language: str) -> None:
-    """Learned from one half of the language's sentences, measured on the other."""
+@pytest.mark.parametrize("language", ["cmn", "en", "es", "ru"])
+def test_what_one_half_of_the_sentences_taught_holds_for_the_other(language: str) -> None:
     records = read_folder(phonesets_dir())
     voice = (pinyin_voice if language == "cmn" else espeak_voice)(records, language).raw()
     sentences = [row["sentence"] for row in records[f"{language}/sentences.tsv"].values()]
@@ -222,4 +236,4 @@ def test_shipped_languages_are_counted_within_two_per_cent(language: str) -> Non
     found = counter(voice, context).count(lines(*sentences[1::2]))
     apart = distance(found.sample, PhoneSet.from_records(records, language), voice.notation)
     assert apart is not None
-    assert apart.value < 0.04
+    assert apart.value < 0.02

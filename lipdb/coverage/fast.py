@@ -14,11 +14,12 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from lipdb.coverage.context import Context, learn
+from lipdb.coverage.context import Context
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, SAMPLE, Counts, Lines
 from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.findings import CONTROLS, EMOJI, NO_WORDS
 from lipdb.coverage.forms import Forms
+from lipdb.coverage.learn import learn
 from lipdb.coverage.lexicon import REMARKS, Lexicon, Masks, mask_of
 from lipdb.coverage.lexicon_files import MOST, keep, open_lexicon
 from lipdb.coverage.lines import shown

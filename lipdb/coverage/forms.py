@@ -8,52 +8,71 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from lipdb.coverage.context import CONSONANT, FOLLOWING, PAUSE, VOWEL, Context
+from lipdb.coverage.context import CONSONANT, KINDS, PAUSE, PLACES, VOWEL, Context
 from lipdb.coverage.lexicon import Lexicon
 from lipdb.coverage.readings import Numbers
 from lipdb.coverage.running import FLOWS, PAUSES, Running
 from lipdb.coverage.words import cut
 
-# What a word is to its neighbours: `VOWEL` or `CONSONANT` to the one in front, and these.
-_FOLLOWS, _PAUSES_BEFORE, _FLOWS_AFTER = 3, 4, 8
+# What a word is to its neighbours: to the one in front (`VOWEL` or `CONSONANT`), to the one behind (the same, shifted), and more.
+_BEGINS, _ENDS, _PAUSES_BEFORE, _FLOWS_AFTER = 0b11, 0b1100, 16, 32
+_SHIFT = 2
 
 
 class Forms:
-    """The readings of a lexicon's words by what follows them, as *context* says."""
+    """The readings of a lexicon's words by what stands before and behind them, as *context* says."""
 
     def __init__(self, lexicon: Lexicon, context: Context) -> None:
         self.lexicon = lexicon
-        following = np.array([following for _, following, _ in context.readings], np.int64)
-        self._learned = _numbers(lexicon, [text for text, _, _ in context.readings]) * FOLLOWING + following
+        self.context = context
+        self._learned = _numbers(lexicon, [word for word, _, _ in context.readings]) * PLACES
+        self._learned += np.array([place for _, place, _ in context.readings], np.int64)
         self._learned_readings = lexicon.readings.number(pa.array([reading for _, _, reading in context.readings], pa.string()))
         self._pauses = _numbers(lexicon, [*context.pauses_before, *context.flows_after])
-        self._kinds = np.repeat(np.array([_PAUSES_BEFORE, _FLOWS_AFTER], np.uint8), [len(context.pauses_before), len(context.flows_after)])
-        self._readings_of: Numbers = np.zeros(0, np.int32)
+        self._marks = np.repeat(np.array([_PAUSES_BEFORE, _FLOWS_AFTER], np.uint8), [len(context.pauses_before), len(context.flows_after)])
+        self._variants: Numbers = np.zeros((0, PLACES), np.int32)
+        self._readings: Numbers = np.zeros(0, np.int32)
         self._traits: NDArray[np.uint8] = np.zeros(0, np.uint8)
 
     def said(self, found: Running) -> tuple[Numbers, NDArray[np.uint8]]:
-        """The reading of every word of *found*, and what is behind it when it is said."""
-        if len(self._readings_of) < len(self.lexicon) * FOLLOWING:
+        """The reading of every word of *found*, whole lines, and what is behind it when it is said."""
+        if len(self._traits) < len(self.lexicon):
             self._grow()
         traits, behind = self._traits[found.words], found.behind
         if self._pauses.size:
-            opens = (traits[1:] & _PAUSES_BEFORE) * (behind[:-1] == FLOWS)
             goes_on = (traits & _FLOWS_AFTER) * (behind == PAUSES)
+            stops = (traits[1:] & _PAUSES_BEFORE) * (behind[:-1] == FLOWS)
             behind = np.where(goes_on, FLOWS, behind)
-            behind[:-1][opens > 0] = PAUSES
-        following = np.full(len(behind), PAUSE, np.uint8)
-        following[:-1] = (traits[1:] & _FOLLOWS) * (behind[:-1] == FLOWS)
-        return self._readings_of[found.words * FOLLOWING + following], behind
+            behind[:-1][stops > 0] = PAUSES
+        flows = behind[:-1] == FLOWS
+        place = np.full(len(behind), PAUSE * KINDS + PAUSE, np.uint8)
+        place[:-1] += (traits[1:] & _BEGINS) * flows
+        place[1:] += ((traits[:-1] & _ENDS) >> _SHIFT) * flows * np.uint8(KINDS)
+        return self._readings[found.words * PLACES + place], behind
 
     def _grow(self) -> None:
         """Make arrays for all words that the lexicon has by now."""
         count, table = len(self.lexicon), self.lexicon.readings
         alone = self.lexicon.reading[:count]
-        self._readings_of = np.repeat(alone, FOLLOWING)
-        self._readings_of[self._learned] = self._learned_readings
-        self._traits = np.where(table.vowels[table.first[alone]], VOWEL, CONSONANT).astype(np.uint8)
-        np.bitwise_or.at(self._traits, self._pauses, self._kinds)
+        self._vary(alone[len(self._traits) :])
+        self._readings = self._variants[alone].reshape(-1)
+        self._readings[self._learned] = self._learned_readings
+        begins, ends = (np.where(table.vowels[labels], VOWEL, CONSONANT) for labels in (table.first[alone], table.outer[alone] & 0xFFFF))
+        self._traits = (begins + (ends << _SHIFT)).astype(np.uint8)
+        np.bitwise_or.at(self._traits, self._pauses, self._marks)
+
+    def _vary(self, alone: Numbers) -> None:
+        """Enter what the rules make of the readings *alone* of new words."""
+        table = self.lexicon.readings
+        different = np.unique(alone)
+        heads, tails = (table.label_numbers(sorted({label for label, _, _ in rules})) for rules in (self.context.heads, self.context.tails))
+        ruled = different[np.isin(table.first[different], heads) | np.isin(table.outer[different] & 0xFFFF, tails)]
+        spelled = [self.context.usual(reading, place) for reading in map(table.spelled, ruled.tolist()) for place in range(PLACES)]
+        varied = table.number(pa.array(spelled, pa.string())).reshape(-1, PLACES)
+        more = np.arange(len(self._variants), len(table), dtype=np.int32)
+        self._variants = np.concatenate([self._variants, np.repeat(more[:, None], PLACES, axis=1)])
+        self._variants[ruled] = varied
 
 
 def _numbers(lexicon: Lexicon, texts: Sequence[str]) -> NDArray[np.int64]:
-    return lexicon.words(cut(pa.array(texts, pa.string()))).astype(np.int64)
+    return lexicon.words(cut(pa.array(texts, pa.string())))

@@ -53,7 +53,11 @@ class Readings:
 
     def spelled(self, number: int) -> str:
         """Reading *number* as labels between spaces."""
-        return " ".join(self.names[label] for label in self.labels[self.starts[number] : self.starts[number + 1]].tolist())
+        return " ".join(self.names[label] for label in self.run(number).tolist())
+
+    def run(self, number: int) -> Numbers:
+        """The labels of reading *number*."""
+        return self.labels[self.starts[number] : self.starts[number + 1]]
 
     def label_numbers(self, labels: Sequence[str]) -> Numbers:
         """The numbers of single *labels*; those that are new are added."""

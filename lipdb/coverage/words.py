@@ -34,6 +34,8 @@ SPACE, CONTINUATION, LEAD = 0x20, 0x80, 0xC0
 _MIX = np.uint64(0x9E3779B97F4A7C15)
 _MASKS = np.array([(1 << 8 * n) - 1 for n in range(8)] + [2**64 - 1], np.uint64)
 _PADDING = bytes(8)
+# By the kind of a character, that of its bytes after the first.
+_FOLLOWING = np.array([{WORD: WORD, DIGIT: DIGIT, CHARACTER: WORD}.get(kind, GAP) for kind in range(UNREAD + 1)], np.uint8)
 
 
 @dataclass(frozen=True)
@@ -95,6 +97,11 @@ def cut(texts: pa.StringArray) -> Words:
         edges = np.sort(np.concatenate([edges, borders, borders]), kind="stable")
     starts, ends = edges[0::2].copy(), edges[1::2].copy()
     return Words(raw, starts, ends, np.searchsorted(starts, lines), _distinct(np.searchsorted(lines, unread, side="right") - 1))
+
+
+def is_character(word: str) -> bool:
+    """Whether *word* is a Chinese character."""
+    return len(word) == 1 and (_kind_of(word) == CHARACTER or PLANES <= ord(word) <= LAST_CHARACTER)
 
 
 def spans_of(texts: pa.StringArray) -> tuple[bytes, Places, Places]:
@@ -171,7 +178,7 @@ def _mark_others(raw: bytes, kinds: Bytes) -> None:
     found = _kind_of_codes()[np.minimum(codes, PLANES)]
     found[(codes >= PLANES) & (codes <= LAST_CHARACTER)] = CHARACTER
     kinds[leads] = found
-    following = np.where((found == WORD) | (found == CHARACTER), WORD, GAP)
+    following = _FOLLOWING[found]
     for byte in range(1, 4):
         longer = widths > byte
         kinds[leads[longer] + byte] = following[longer]
