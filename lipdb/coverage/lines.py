@@ -31,14 +31,14 @@ def finding(document: str, reason: str, example: str, count: int = 1) -> Counts:
 
 def shown(text: str) -> str:
     """*text* on one line, not too long, without signs that a terminal would obey."""
-    plain = "".join(c if c.isprintable() else "�" for c in text[: 2 * _SHOWN])
-    return plain if len(plain) <= _SHOWN and len(text) <= 2 * _SHOWN else plain[: _SHOWN - 1] + "…"
+    plain = "".join(c if c.isprintable() else "�" for c in text[: 2 * _SHOWN].strip())
+    return plain if len(plain) <= _SHOWN else plain[: _SHOWN - 1] + "…"
 
 
 def lines_of(raw: bytes) -> Read:
-    """The lines of *raw*, without blank ones; the document has no name yet.
+    """The lines of *raw*, without blank ones and without white space at their ends; the document has no name yet.
 
-    Lines that are too long or no UTF-8 are left out; white space at the ends is.
+    Lines that are too long, their end included, or no UTF-8 are left out.
     """
     edges = np.flatnonzero(np.frombuffer(raw, np.uint8) == NEWLINE[0]) + 1
     offsets = np.concatenate(([0], edges, [] if raw.endswith(NEWLINE) or not raw else [len(raw)])).astype(np.int32)
