@@ -132,7 +132,8 @@ def test_tone_and_length_are_no_phones_of_their_own(make):
     ("label", "segments"),
     [
         ("tʃ", "tʃ"), ("aɪə", "aɪə"), ("ɑːɹ", "ɑ ɹ"), ("əl", "ə l"), ("ph", "pʰ"), ("tɕh", "tɕʰ"), ("t`", "tʼ"), ("ʔœ", "ʔ œ"),
-        ("sx", "s x"), ("mb", "mb"), ("pf", "pf"), ("əə", "ə"), ("kw", "k w"), ("ɯᵝɯᵝ", "ɯᵝ"), ("m̩", "m̩"), ("ɡ͡b", "ɡ͡b"), ("1", ""),
+        ("sx", "s x"), ("mb", "mb"), ("pf", "pf"), ("əə", "ə"), ("kw", "k w"), ("ɯᵝɯᵝ", "ɯᵝ"), ("m̩", "m̩"), ("ɡ͡b", "ɡ͡b"), ("N", "ŋ"),
+        ("1", ""),
     ],
 )  # fmt: skip
 def test_a_label_is_one_phone_or_several(label, segments):

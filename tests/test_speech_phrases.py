@@ -71,3 +71,10 @@ def test_words_of_another_language_are_read_without_the_mark_and_counted():
 def test_raw_labels_do_not_depend_on_the_alias_table():
     voice = EspeakVoice("de", "de", "Latn", frozenset({"aː", "ɜ", "ɾ/V_", "ɾ", "ɾː"}))
     assert voice.raw().symbols == {"ɾ/V_", "ɾ", "ɾː"}
+
+
+def test_a_modifier_that_espeak_writes_by_itself_is_no_label() -> None:
+    voice = EspeakVoice("si", "si", "Sinh")
+    said = [label for phrase in voice.phrases("අම්මා ගෙදර, අඹ ගහ") for word in phrase for label in word]
+    assert "ᵐ" not in said
+    assert said == [phone.symbol for phone in voice.speak("අම්මා ගෙදර, අඹ ගහ").schedule.phones if not phone.silent]

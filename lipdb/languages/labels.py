@@ -16,6 +16,8 @@ THIRD = "ɜ"
 """How espeak writes the digit of the third tone: it turns every sign of its phonemes into IPA, tones too."""
 _TONES_WITH_3 = re.compile(rf"(?<=.)[0-9{THIRD}]+$")
 _LENGTH = re.compile("[ːˑ]")
+# Where a voice gives no IPA, espeak writes its own mnemonic: Kirshenbaum's ASCII, of which small letters are IPA.
+_MNEMONICS = str.maketrans("ADEINOSTUVXZΦ", "ɑðɛɪŋɔʃθʊʌχʒɸ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,9 +55,9 @@ def read_espeak(label: str, *, tonal: bool) -> Reading:
     """
     tones = _TONES_WITH_3 if tonal else _TONES
     found = tones.search(label)
-    bare = _LENGTH.sub("", spelled(_undoubled(tones.sub("", label))))
+    bare = _LENGTH.sub("", spelled(_undoubled(tones.sub("", label)).translate(_MNEMONICS)))
     read = read_segment(bare)
-    ascii_signs = "".join(sign for sign in label if sign.isascii() and not sign.isalnum())
+    ascii_signs = "".join(sign for sign in label if (sign.isascii() and not sign.isalnum()) or sign.isupper())
     strange = ascii_signs + "".join(sign for sign in read.strange + read.foreign if sign not in ascii_signs)
     units = _units(bare)
     return Reading(label, tuple(_named(group) for group in _grouped(units)), found[0] if found else "", strange)

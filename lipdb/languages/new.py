@@ -74,7 +74,8 @@ def new_language(
     spoken = EspeakVoice(voice, code, script)
     said, notes = _hear(spoken, sentences or _numbers_and_letters(letters_of(script)))
     if not said:
-        raise InputError(f"text: the voice {voice} can read none of it; {notes[0]}")
+        why = notes[0] if notes else "it stays silent; espeak-ng may lack the dictionary of this voice"
+        raise InputError(f"text: the voice {voice} can read none of it; {why}")
     proposed = _propose(spoken, said, records)
     kept = (chosen(said, SENTENCES) if len(said) > SENTENCES else list(said)) if sentences else []
     row = {"language": code, "name": name or espeak_voices()[voice], "notation": NOTATION, "speech": "espeak", "voice": voice}

@@ -26,7 +26,7 @@ from lipdb.speech import libespeak, phonemes
 from lipdb.speech.arabic import spelt_for_espeak
 from lipdb.speech.closures import restore_closures, share_swallowed
 from lipdb.speech.context import in_context
-from lipdb.speech.libespeak import Mark
+from lipdb.speech.libespeak import Mark, is_phone
 from lipdb.speech.phonemes import SHORTEST_PAUSE, SWITCH
 from lipdb.speech.text import check_script, clean
 from lipdb.speech.voice import Phrase, Phrases, Reading, Spoken, lay_out
@@ -172,7 +172,7 @@ def _known(symbol: str, symbols: frozenset[str]) -> str:
 @lru_cache(maxsize=1 << 16)
 def _symbols(word: str, symbols: frozenset[str]) -> tuple[str, ...]:
     """The symbols of one *word* of phonemizer's. Words come back again and again, so each is taken apart once."""
-    return _placed([_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if symbol], symbols)
+    return _placed([_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if is_phone(symbol)], symbols)
 
 
 def _placed(word: list[str], symbols: frozenset[str]) -> tuple[str, ...]:

@@ -171,7 +171,7 @@ def _marks(events: list[tuple[int, int, Any]], whole: list[str], lead: int, tota
     phoneme trace of the same synthesis has the whole label of every event that is no pause, in the same order.
     """
     starts = [lead + sample for kind, sample, _ in events if kind == EVENT_PHONEME] + [total]
-    sounding = sum(1 for kind, _, raw in events if kind == EVENT_PHONEME and _is_phone(raw.decode("utf-8", "ignore")))
+    sounding = sum(1 for kind, _, raw in events if kind == EVENT_PHONEME and is_phone(raw.decode("utf-8", "ignore")))
     if sounding != len(whole):
         raise MissingToolError(
             f"espeak-ng: it played {sounding} phones but named {len(whole)}, so it is of no use; run `pip install espeakng-loader`"
@@ -186,11 +186,11 @@ def _marks(events: list[tuple[int, int, Any]], whole: list[str], lead: int, tota
         if _is_modifier(label):
             marks[-1] = marks[-1]._replace(end=end)
         else:
-            marks.append(Mark(next(names) if _is_phone(label) else "", lead + sample, end, position))
+            marks.append(Mark(next(names) if is_phone(label) else "", lead + sample, end, position))
     return tuple(marks)
 
 
-def _is_phone(label: str) -> bool:
+def is_phone(label: str) -> bool:
     """Whether *label* names a phone: it is no pause and no modifier."""
     return bool(label.strip(STRESS + "',%=|_:!")) and not _is_modifier(label)
 
@@ -202,7 +202,7 @@ def _is_modifier(label: str) -> bool:
 
 
 def _labels(clause: str) -> list[str]:
-    return [label for word in clause.split() for label in word.split(SEPARATOR) if _is_phone(label)]
+    return [label for word in clause.split() for label in word.split(SEPARATOR) if is_phone(label)]
 
 
 @contextmanager
