@@ -1,4 +1,4 @@
-"""What all pages share: the database, who visits and what they may do, how errors are shown and edits are saved."""
+"""What all pages share: the database to look at, who visits and what they may do, and the one gate that every write goes through."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import streamlit as st
+from parts.upgrade import warn_of_upgrade
 
 import lipdb
 from lipdb import Database
@@ -18,17 +19,33 @@ NAME = "visitor"
 
 
 @st.cache_resource
-def database() -> Database:
-    """The database that `lipdb dashboard` was started with: one for all visitors."""
+def _writable() -> Database:
     return lipdb.open(os.environ.get("LIPDB_URL"), phonesets=os.environ.get("LIPDB_PHONESETS"))
+
+
+@st.cache_resource
+def _view() -> Database:
+    return _writable().read_only()
+
+
+def database() -> Database:
+    """The database that `lipdb dashboard` was started with, to look at: one for all visitors.
+
+    Every way to write through it raises `StoreError`, whoever asks; see `save` and `writable`. Raises `LipdbError` for who
+    has to sign in first.
+    """
+    if not visitor().reader:
+        raise LipdbError("sign in to see this; with another address, if yours is not let in")
+    return _view()
 
 
 @dataclass(frozen=True, slots=True)
 class Visitor:
-    """Who is here, and whether they may change anything."""
+    """Who is here, and whether they may change anything, or look at all."""
 
     name: str
     editor: bool
+    reader: bool = True
 
 
 def sign_in_configured() -> bool:
@@ -40,15 +57,28 @@ def visitor() -> Visitor:
     """Who is here.
 
     Without sign-in everybody on this machine may edit, under the name they give. With it, those whose e-mail address stands
-    in ``editors`` of section ``[lipdb]`` of the secrets may edit, and all others look.
+    in ``editors`` of section ``[lipdb]`` of the secrets may edit. All others who are signed in may look; with ``viewers``
+    there too, only those whose address stands in it.
     """
     if not sign_in_configured():
-        return Visitor(st.session_state.get(NAME, ""), editor=True)
+        return Visitor(st.session_state.get(NAME, "").strip(), editor=True)
     if not st.user.is_logged_in:
-        return Visitor("", editor=False)
+        return Visitor("", editor=False, reader=False)
     address = str(st.user.get("email") or "")
-    editors = (_secret("lipdb") or {}).get("editors", [])
-    return Visitor(address, editor=bool(address) and address in editors)
+    # A provider says so when anybody could have typed this address.
+    if not address or st.user.get("email_verified") is False:
+        return Visitor(address, editor=False, reader=_addresses("viewers") is None)
+    editors, viewers = _addresses("editors") or set(), _addresses("viewers")
+    editor = address.casefold() in editors
+    return Visitor(address, editor, editor or viewers is None or address.casefold() in viewers)
+
+
+def _addresses(role: str) -> set[str] | None:
+    """The addresses that the secrets list for *role*; None when they list none."""
+    listed = (_secret("lipdb") or {}).get(role)
+    if listed is None:
+        return None
+    return {str(one).casefold() for one in ([listed] if isinstance(listed, str) else listed)}  # type: ignore[attr-defined]
 
 
 def _secret(section: str) -> dict[str, object] | None:
@@ -61,19 +91,24 @@ def _secret(section: str) -> dict[str, object] | None:
 
 def greet() -> None:
     """Who is here, in the side bar, and a way to sign in or to say one's name. Stops the page for who has to sign in."""
-    with st.sidebar:
-        if not sign_in_configured():
-            st.text_input("Your name", key=NAME, help="It stands beside every change that you save.", placeholder="for the history")
-            return
-        if st.user.is_logged_in:
-            who = visitor()
-            st.write(f"{who.name} ({'editor' if who.editor else 'viewer'})")
-            st.button("Sign out", on_click=st.logout)
-            return
-    st.title("lipdb")
-    st.write("Sign in to see lines, curves and coverage.")
-    st.button("Sign in", type="primary", on_click=st.login)
-    st.stop()
+    if not sign_in_configured():
+        st.sidebar.text_input("Your name", key=NAME, help="It stands beside every change that you save.", placeholder="for the history")
+    elif st.user.is_logged_in:
+        who = visitor()
+        role = "editor" if who.editor else "viewer" if who.reader else "not let in"
+        st.sidebar.write(f"{who.name or 'No address'} ({role})")
+        st.sidebar.button("Sign out", on_click=st.logout)
+        if not who.reader:
+            st.error(f"{who.name or 'You'} may not look at this. Ask to be let in, or sign out and in again as somebody else.")
+            st.stop()
+    else:
+        st.title("lipdb")
+        st.write("Sign in to see lines, curves and coverage.")
+        st.button("Sign in", type="primary", on_click=st.login)
+        st.stop()
+    with shown_errors():
+        database().store.require_current()
+    warn_of_upgrade()
 
 
 @contextmanager
@@ -82,11 +117,28 @@ def shown_errors() -> Iterator[None]:
     try:
         yield
     except SchemaVersionError:
-        st.error("The database was upgraded while this page was open. Restart `lipdb dashboard` with the newer lipdb, then reload.")
+        st.error(
+            "The database was upgraded while this page was open. Nothing is saved any more: "
+            "restart `lipdb dashboard` with the newer lipdb, then reload this page.",
+            icon=":material/upgrade:",
+        )
         st.stop()
     except LipdbError as error:
         st.error(str(error), icon=":material/error:")
         st.stop()
+
+
+def writable() -> tuple[Database, str]:
+    """The database to write to, and the name that stands beside the change: the only way to it, so the only gate.
+
+    Raises `LipdbError` for a visitor who may not write, or has not said their name.
+    """
+    who = visitor()
+    if not who.editor:
+        raise LipdbError("you may look, but not change; ask an editor, or to be made one")
+    if not who.name:
+        raise LipdbError("who are you? Give your name in the side bar; it stands beside every change")
+    return _writable(), who.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,17 +154,19 @@ def save(edits: Sequence[Edited], *, note: str, seen: int) -> int | None:
     """Save *edits* as one revision under the visitor's name; its number, None when nothing changed.
 
     *seen* is the revision that the page showed. Raises `EditConflictError` when somebody saved the same since, and
-    `LipdbError` for what can't be saved, and for a visitor who may not: every write of every page goes through here.
+    `LipdbError` for what can't be saved, and for a visitor who may not.
     """
-    who = visitor()
-    if not who.editor:
-        raise LipdbError("you may look, but not change; ask an editor, or to be made one")
-    if not who.name.strip():
-        raise LipdbError("who are you? Give your name in the side bar; it stands beside every change")
-    with database().edit(author=who.name, note=note) as edit:
+    db, author = writable()
+    with db.edit(author=author, note=note) as edit:
         for one in edits:
             if one.row is None:
                 edit.delete(one.table, one.key, expected_revision=seen)
             else:
                 edit.put(one.table, one.row, expected_revision=seen)
     return edit.revision
+
+
+def undo(number: int, *, note: str = "") -> int | None:
+    """Take back revision *number* as a new revision; its number, None when nothing of it is left. Raises as `save` does."""
+    db, author = writable()
+    return db.store.undo(number, author=author, note=note)

@@ -43,7 +43,8 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
     }
     chosen = {"LIPDB_URL": options.db, "LIPDB_PHONESETS": options.phonesets}
     arguments = [f"--{name}={value}" for name, value in settings.items()]
-    command = [sys.executable, "-m", "streamlit", "run", str(data_dir("dashboard") / "app.py"), *arguments]
+    folder = data_dir("dashboard")
+    command = [sys.executable, str(folder / "serve.py"), "run", str(folder / "app.py"), *arguments]
     with subprocess.Popen(command, env={**os.environ, **{name: value for name, value in chosen.items() if value}}) as app:
         try:
             code = app.wait()
