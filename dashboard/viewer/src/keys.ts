@@ -157,7 +157,7 @@ class Editor {
     this.now = curves;
     this.show();
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.component?.setStateValue("curves", { id: this.id, curves: this.now }), PAUSE);
+    this.timer = setTimeout(() => this.component?.setStateValue("curves", { id: this.id, taken: this.token, curves: this.now }), PAUSE);
   }
 
   dispose(): void {

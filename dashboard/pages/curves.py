@@ -1,0 +1,210 @@
+"""Curves: the curves of one phone pair, edited with the face, the sound and the engine's result beside them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import streamlit as st
+from parts import pairs
+from parts.conflict import Choice, save_or_ask
+from parts.keys import Held, discard, editor, held, rebase, unsaved
+from parts.lines import spoken
+from parts.session import database, shown_errors, visitor
+from parts.stage import stage
+
+from lipdb import Line
+from lipdb.curated.tsv import Records
+from lipdb.curves.draft import CHARACTER, COMMON, LANGUAGE, Place, overriding
+from lipdb.curves.rehearse import REACH, Rehearsal, occurrences
+from lipdb.performance import Performance
+from lipdb.schedule import SILENCE
+
+SAVED = "curves_saved"
+
+
+def ask_layer(place: Place) -> Place:
+    """Ask which layer is edited, and say what that will affect."""
+    db = database()
+    names = {
+        COMMON: "All languages",
+        LANGUAGE: db.language(place.language)["name"],
+        CHARACTER: db.character(place.character).title or place.character,
+    }
+    kind = st.segmented_control(
+        "Edit and save for", list(names), default=place.kind, format_func=names.__getitem__, key=f"curves_kind_{place.kind}"
+    )
+    kind = kind or place.kind
+    pairs.choice().kind = kind
+    if kind != place.kind:
+        st.rerun()
+    everyone = f"every character of pose set {place.pose_set}"
+    reach = {
+        COMMON: f"every language, on {everyone}",
+        LANGUAGE: f"{names[LANGUAGE]} only, on {everyone}",
+        CHARACTER: f"{names[CHARACTER]} only, in every language",
+    }
+    hidden = overriding(db.records, place)
+    but = f"; not {', '.join(hidden)}, which have curves of their own" if hidden else ""
+    st.caption(f":material/layers: Saved to `{place.layer}`: {reach[kind]}{but}.")
+    return place
+
+
+def ask_lengths(place: Place) -> tuple[float, float]:
+    """How long the two phones last in the loop and in what the engine draws."""
+    usual = pairs.usual(place)
+    lengths = []
+    for column, phone, name, length in zip(st.columns(2), (place.left, place.right), ("first", "second"), usual, strict=True):
+        if phone == SILENCE:
+            column.caption(f"Silence: the pair covers {REACH} s of it.")
+            lengths.append(REACH)
+        else:
+            help_text = "What this phone usually lasts in this pair is set in the beginning."
+            key = f"curves_{name}_{place.pair}_{place.language}"
+            lengths.append(column.number_input(f"{phone} lasts (s)", 0.01, 1.0, length, 0.01, key=key, help=help_text))
+    return lengths[0], lengths[1]
+
+
+def show_loop(place: Place, records: Records, loop: Rehearsal) -> None:
+    """The pair alone on the face, over and over."""
+    db = database()
+    track = loop.play(place.book(records), db.pose_set(place.pose_set))
+    who = db.character(place.character)
+    stage(
+        [Performance(track, who, None, Line(loop.schedule))],
+        key="curves_loop",
+        loop=(0.0, loop.duration),
+        autoplay=True,
+        compact=True,
+        marks=[(loop.start, loop.end)],
+    )
+
+
+def show_sentence(place: Place, records: Records) -> None:
+    """A sentence that contains the pair, with the curves as they are now, saved or not."""
+    found = pairs.examples(place.language, place.character).containing(place.left, place.right)
+    if not found:
+        text = st.text_input("No sample sentence has this pair. Write one:", key=f"curves_text_{place.language}", max_chars=500)
+        if not text.strip():
+            return
+    else:
+        key = f"curves_sentence_{place.pair}_{place.language}"
+        number = st.session_state.get(key, 0) % len(found)
+        text = found[number]
+        said, button = st.columns([4, 1], vertical_alignment="center")
+        said.write(f"“{text}”")
+        button.button(
+            "Next", key="curves_next", icon=":material/skip_next:", help=f"Sentence {number + 1} of {len(found)} with this pair",
+            width="stretch", on_click=lambda: st.session_state.update({key: number + 1}),
+        )  # fmt: skip
+    line = spoken(text, place.language)
+    book = place.book(records)
+    own = {place.key(pose): book.find(*place.key(pose)).curve for pose in book.poses}
+    played = database().animate(replace(line, curves={place.pose_set: own}), character=place.character)
+    marks = [(max(start, 0.0), end) for start, _, end in occurrences(line.schedule, place.left, place.right)]
+    stage([played], key="curves_sentence", compact=True, marks=marks)
+
+
+def copy_from(now: Held) -> None:
+    """Take over curves of another pair, or of another layer."""
+    place, db = now.draft.place, database()
+    names = [key[0] for key in db.records["common.tsv"]]
+    every = [f"{left}-{right}" for left in names for right in names if (left, right) != (SILENCE, SILENCE)]
+    with st.popover("Copy from", icon=":material/content_copy:", width="stretch"):
+        pair = st.selectbox("Pair", every, index=every.index(place.pair), key=f"curves_copy_pair_{place.pair}")
+        layers = layers_of(place)
+        layer = st.selectbox("As used by", list(layers), key="curves_copy_layer")
+        poses = st.multiselect("Poses", list(now.draft.lanes), default=list(now.draft.lanes), key=f"curves_copy_poses_{place.pose_set}")
+        if st.button("Copy", key="curves_copy", type="primary"):
+            left, _, right = pair.partition("-")
+            source = layers[layer].view(db.records)
+            now.give({pose: source.find(left, right, pose).curve.keys for pose in poses})
+            st.rerun(scope="fragment")
+
+
+def layers_of(place: Place) -> dict[str, Place]:
+    """The layers that a curve can be copied from, by what they are called."""
+    db = database()
+    there = [row for row in db.characters() if row["pose_set"] == place.pose_set]
+    found = {"all (common)": replace(place, kind=COMMON)}
+    found |= {row["name"]: replace(place, language=row["language"], kind=LANGUAGE) for row in db.languages()}
+    return found | {row["title"] or row["character"]: replace(place, character=row["character"], kind=CHARACTER) for row in there}
+
+
+def ask_save(now: Held) -> None:
+    """Note and button; what is not saved yet."""
+    place, who = now.draft.place, visitor()
+    if not who.editor:
+        return
+    with st.form("curves_save", border=False):
+        note, button = st.columns([3, 1], vertical_alignment="bottom")
+        text = note.text_input("Note for the history", key="curves_note", placeholder="why", max_chars=300)
+        pressed = button.form_submit_button("Save", type="primary", icon=":material/save:", disabled=not now.changed, width="stretch")
+    if now.changed:
+        left, right = st.columns([3, 1], vertical_alignment="center")
+        left.caption(f":material/edit: Not saved yet: {', '.join(now.changed)}.")
+        right.button("Discard", key="curves_discard", on_click=partial(discard, place), width="stretch")
+    elif place in st.session_state.get(SAVED, {}):
+        st.success(st.session_state[SAVED][place], icon=":material/check:")
+    if pressed:
+        what = f"{place.pair}: {', '.join(now.changed)}"
+        save_or_ask(now.edits(), note=text.strip() or what, seen=now.seen, after=partial(saved, place, what))
+
+
+def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None:
+    """Go on from what is saved now."""
+    rebase(place, keep=choice != "theirs")
+    if choice != "edit":
+        done = f"Saved {what} to {place.layer} as revision {revision}." if revision else "Theirs stays; nothing of yours had to be saved."
+        st.session_state.setdefault(SAVED, {})[place] = done
+        st.rerun()
+
+
+def show_sources(now: Held) -> None:
+    """Where each curve comes from."""
+    with st.expander("Where these curves come from"):
+        rows = []
+        for pose, lane in now.draft.lanes.items():
+            curve = lane.own or lane.below.curve
+            layer = now.draft.place.layer if lane.own else lane.below.where
+            rows.append(
+                {
+                    "pose": pose,
+                    "layer": layer,
+                    "origin": curve.origin,
+                    "author": curve.author,
+                    "time": curve.time,
+                    "source": curve.source,
+                    "comment": curve.comment,
+                    "seen instead": lane.hidden,
+                }
+            )
+        st.dataframe(rows, hide_index=True)
+
+
+@st.fragment
+def work(place: Place) -> None:
+    """The part of the page that runs again with every key that is moved."""
+    with shown_errors():
+        now = held(place)
+        records = now.draft.applied(database().records, now.curves)
+        left, right = st.columns([3, 2], gap="medium")
+        with left:
+            lengths = ask_lengths(place)
+            loop = Rehearsal.of(place.left, place.right, lengths)
+            editor(now, loop.drawn(place.view(records), database().pose_set(place.pose_set)))
+            if visitor().editor:
+                copy_from(now)
+            ask_save(now)
+            show_sources(now)
+        with right:
+            show_loop(place, records, loop)
+            show_sentence(place, records)
+
+
+with shown_errors():
+    place = ask_layer(pairs.ask())
+    others = [other.pair for other in unsaved() if other != place]
+    if others:
+        st.caption(f":material/edit: Not saved yet elsewhere: {', '.join(dict.fromkeys(others))}.")
+    work(place)

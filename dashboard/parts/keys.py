@@ -1,0 +1,132 @@
+"""The curve editor, and the unsaved edits of one visitor: they outlive page changes and never meet another visitor's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import count
+from typing import Any
+
+import streamlit as st
+from parts.session import Edited, database, visitor
+from parts.viewer import component
+
+from lipdb.curves.draft import Curves, Draft, Place
+from lipdb.curves.keys import Keys
+from lipdb.schedule import SILENCE
+
+HELD = "curves_held"
+MOST_HELD = 50
+_TOKENS = count(1)
+COMPONENT = "curves_keys"
+
+
+@dataclass
+class Held:
+    """One pair in one visitor's hands: as it stood at revision *seen*, and the *curves* that they would like instead.
+
+    A new *token* makes the browser forget its own state and take this one; *given* are curves that it takes over as a step.
+    """
+
+    draft: Draft
+    seen: int
+    curves: Curves
+    token: str = field(default_factory=lambda: str(next(_TOKENS)))
+    given: dict[str, Any] | None = None
+
+    @property
+    def changed(self) -> list[str]:
+        """The poses with unsaved changes."""
+        return self.draft.changed(self.curves)
+
+    def edits(self) -> list[Edited]:
+        """What saving does."""
+        return [Edited(self.draft.place.table, key, row) for key, row in self.draft.rows(self.curves).items()]
+
+    def give(self, curves: Curves) -> None:
+        """Take over *curves* of some poses, as a step that the visitor can undo."""
+        self.curves = {**self.curves, **curves}
+        self.given = {"token": str(next(_TOKENS)), "curves": _plain(curves)}
+
+
+def held(place: Place) -> Held:
+    """The visitor's edits of *place*, begun when there are none, brought up to date when nothing is unsaved."""
+    mine: dict[Place, Held] = st.session_state.setdefault(HELD, {})
+    seen = database().store.revision  # before the records are read: what is saved in between is seen as a conflict
+    if place in mine:
+        now = mine[place]
+        _receive(now)
+        if now.seen == seen or now.changed:
+            return now
+        draft = Draft.load(database().records, place)
+        same = draft.curves == now.draft.curves
+        mine[place] = Held(draft, seen, draft.curves, now.token) if same else Held(draft, seen, draft.curves)
+    else:
+        draft = Draft.load(database().records, place)
+        mine[place] = Held(draft, seen, draft.curves)
+        clean = [other for other, one in mine.items() if other != place and not one.changed]
+        for old in clean[: max(len(mine) - MOST_HELD, 0)]:
+            del mine[old]
+    return mine[place]
+
+
+def rebase(place: Place, *, keep: bool) -> Held:
+    """Begin again from what is saved now; *keep* the visitor's curves on top of it, and what they can undo."""
+    mine: dict[Place, Held] = st.session_state[HELD]
+    seen = database().store.revision
+    draft, before = Draft.load(database().records, place), mine[place]
+    # After a pair was saved as a whole, poses that were left to the layer below have rows of their own.
+    keeps = keep and (not before.draft.whole or draft.whole)
+    mine[place] = Held(draft, seen, before.curves, before.token) if keeps else Held(draft, seen, draft.curves)
+    return mine[place]
+
+
+def discard(place: Place) -> None:
+    """Forget the visitor's changes of *place*."""
+    st.session_state.get(HELD, {}).pop(place, None)
+
+
+def unsaved() -> list[Place]:
+    """Where the visitor has changes that are not saved."""
+    return [place for place, one in st.session_state.get(HELD, {}).items() if one.changed]
+
+
+def _receive(now: Held) -> None:
+    """Take over what the browser has sent for this draft, unless it had not yet taken over what it was given."""
+    sent = (st.session_state.get(COMPONENT) or {}).get("curves") or {}
+    if sent.get("id") == now.token and (now.given is None or sent.get("taken") == now.given["token"]):
+        now.curves = now.draft.read(sent["curves"])
+
+
+def editor(now: Held, drawn: Mapping[str, Keys]) -> None:
+    """Show *now* to be edited, with what the engine has *drawn* of it."""
+    mount = component("keys")
+    if mount is None:
+        return
+    place = now.draft.place
+    lanes = [
+        {
+            "pose": pose,
+            "keys": _plain(now.curves)[pose],
+            "below": lane.below.curve.keys,
+            "from": lane.below.layer,
+            "note": f"{lane.hidden} has a curve of its own here, which wins" if lane.hidden else "",
+            "drawn": drawn[pose],
+        }
+        for pose, lane in now.draft.lanes.items()
+    ]
+    data = {
+        "id": now.token,
+        "left": place.left,
+        "right": place.right,
+        "layer": place.layer,
+        "lanes": lanes,
+        "locked": not visitor().editor,
+        "silent": [place.left == SILENCE, place.right == SILENCE],
+        "given": now.given,
+    }
+    mount(data=data, key=COMPONENT, on_curves_change=lambda: None)
+
+
+def _plain(curves: Curves) -> dict[str, list[list[float]] | None]:
+    return {pose: None if keys is None else [list(key) for key in keys] for pose, keys in curves.items()}

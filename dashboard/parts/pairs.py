@@ -1,0 +1,205 @@
+"""Choosing a phone pair: by a word, by its two phones, or in the matrix of all pairs; and text that needs it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import altair as alt
+import pandas as pd
+import streamlit as st
+from parts.lines import spoken
+from parts.session import database, shown_errors
+
+from lipdb.curves.draft import KINDS, Place
+from lipdb.curves.rehearse import usual_lengths
+from lipdb.decisions import ORIGINS, PairUse
+from lipdb.errors import LipdbError
+from lipdb.languages.examples import Examples, pairs_in_order
+from lipdb.schedule import SILENCE
+
+WORD = "low"
+CHOICE, OPEN = "curves_choice", "curves_open"
+LISTENED = 4
+"""Sentences from which the usual lengths of a pair's phones are taken."""
+ORIGIN_COLOURS = dict(zip(ORIGINS, ("#009e73", "#56b4e9", "#0072b2", "#e69f00", "#d55e00"), strict=True))
+
+
+@dataclass
+class Choice:
+    """What the visitor looks at; it outlives the widgets, which Streamlit forgets when another page is shown."""
+
+    left: str = "l"
+    right: str = "ow"
+    language: str = "en"
+    character: str = "robin"
+    kind: str = KINDS[0]
+    word: str = WORD
+
+    @property
+    def pair(self) -> str:
+        """The pair as people write it."""
+        return f"{self.left}-{self.right}"
+
+
+def choice() -> Choice:
+    """The visitor's choice: as another page asked for it, as it was, or as the address says."""
+    if CHOICE not in st.session_state:
+        asked = {name: st.query_params[name] for name in ("language", "character", "kind") if name in st.query_params}
+        left, dash, right = st.query_params.get("pair", "").partition("-")
+        st.session_state[CHOICE] = Choice(**asked, **({"left": left, "right": right, "word": ""} if dash else {}))
+    chosen: Choice = st.session_state[CHOICE]
+    for name, value in st.session_state.pop(OPEN, {}).items():
+        setattr(chosen, name, value)
+    return chosen
+
+
+def open_pair(left: str, right: str, *, language: str, character: str) -> None:
+    """Go to the page Curves, to this pair."""
+    st.session_state[OPEN] = {"left": left, "right": right, "language": language, "character": character, "word": ""}
+    st.switch_page("pages/curves.py")
+
+
+def take(left: str, right: str) -> None:
+    """Choose a pair."""
+    chosen: Choice = st.session_state[CHOICE]
+    chosen.left, chosen.right = left, right
+
+
+def remember(chosen: Choice) -> None:
+    """Put the choice into the address, so that it can be loaded again or sent to somebody."""
+    wanted = {"pair": chosen.pair, "language": chosen.language, "character": chosen.character, "kind": chosen.kind}
+    if st.query_params.to_dict() != wanted:
+        st.query_params.from_dict(wanted)
+
+
+def ask() -> Place:
+    """Ask for language, character, layer and pair. Raises `LipdbError`."""
+    db, chosen = database(), choice()
+    languages = {row["language"]: row["name"] for row in db.languages()}
+    characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
+    phones = sorted((key[0] for key in db.records["common.tsv"]), key=lambda phone: (phone == SILENCE, phone))
+    _keep_known(chosen, languages, characters, phones)
+    columns = st.columns([3, 2, 2, 2, 2, 2], vertical_alignment="bottom")
+    for column, name, label, options, shown in (
+        (columns[1], "left", "From", phones, {}),
+        (columns[2], "right", "To", phones, {}),
+        (columns[4], "language", "Language", list(languages), languages),
+        (columns[5], "character", "Character", list(characters), characters),
+    ):
+        st.session_state[f"curves_{name}"] = getattr(chosen, name)
+        picked = column.selectbox(
+            label, options, key=f"curves_{name}", format_func=lambda one, shown=shown: shown.get(one, one), on_change=_picked, args=(name,)
+        )
+        setattr(chosen, name, picked)
+    st.session_state["curves_word"] = chosen.word
+    columns[0].text_input("A word, and its pairs", key="curves_word", max_chars=200, placeholder="low", on_change=_typed)
+    if columns[3].button("All pairs", icon=":material/grid_on:", key="curves_matrix", width="stretch"):
+        _matrix(chosen.language, chosen.character)
+    _pairs_of_word(chosen)
+    remember(chosen)
+    return Place(chosen.left, chosen.right, db.character(chosen.character).pose_set, chosen.language, chosen.character, chosen.kind)
+
+
+def _keep_known(chosen: Choice, languages: dict[str, str], characters: dict[str, str], phones: list[str]) -> None:
+    """An address may name what there is not, or no longer."""
+    usual = Choice()
+    for name, known in (("language", languages), ("character", characters), ("left", phones), ("right", phones), ("kind", KINDS)):
+        if getattr(chosen, name) not in known:
+            setattr(chosen, name, getattr(usual, name))
+
+
+def _picked(name: str) -> None:
+    setattr(st.session_state[CHOICE], name, st.session_state[f"curves_{name}"])
+
+
+def _typed() -> None:
+    chosen: Choice = st.session_state[CHOICE]
+    chosen.word = st.session_state["curves_word"].strip()
+    try:
+        pairs = pairs_in_order(spoken(chosen.word, chosen.language)) if chosen.word else []
+    except LipdbError:
+        return  # It is shown where the pairs would be.
+    if pairs:
+        take(*next((pair for pair in pairs if SILENCE not in pair), pairs[0]))
+
+
+def _pairs_of_word(chosen: Choice) -> None:
+    if not chosen.word:
+        return
+    try:
+        pairs = pairs_in_order(spoken(chosen.word, chosen.language))
+    except LipdbError as error:
+        st.caption(f":material/error: {error}")
+        return
+    names = {f"{left}-{right}": (left, right) for left, right in pairs}
+    st.session_state["curves_of_word"] = chosen.pair if chosen.pair in names else None
+
+    def picked() -> None:
+        if st.session_state["curves_of_word"]:
+            take(*names[st.session_state["curves_of_word"]])
+
+    st.pills("Pairs of the word", list(names), key="curves_of_word", on_change=picked, label_visibility="collapsed")
+
+
+@st.dialog("All pairs", width="large")
+def _matrix(language: str, character: str) -> None:
+    """Every pair by where its curves come from; a click chooses one."""
+    with shown_errors():
+        uses = _uses(language, character, database().store.revision)
+    event = st.altair_chart(_matrix_chart(uses), key="curves_cells", on_select="rerun", selection_mode="pair", width="stretch")
+    cells = event.selection.get("pair") or []
+    if cells:
+        take(cells[0]["left"], cells[0]["right"])
+        st.session_state[CHOICE].word = ""
+        st.rerun()
+
+
+@st.cache_resource(max_entries=16, show_spinner=False)
+def _uses(language: str, character: str, revision: int) -> list[PairUse]:  # noqa: ARG001  (the revision decides)
+    names = [key[0] for key in database().records["common.tsv"]]
+    counts = {(left, right): 0.0 for left in names for right in names if (left, right) != (SILENCE, SILENCE)}
+    return database().uses(counts, language=language, character=character)
+
+
+def _matrix_chart(uses: list[PairUse]) -> alt.Chart:
+    rows = [{"left": use.left, "right": use.right, "origin": use.origin, "layer": use.layer} for use in uses]
+    order = sorted({use.left for use in uses}, key=lambda phone: (phone == SILENCE, phone))
+    click = alt.selection_point(name="pair", fields=["left", "right"], on="click", clear=False)
+    there = [origin for origin in ORIGINS if any(row["origin"] == origin for row in rows)]
+    colours = alt.Scale(domain=there, range=[ORIGIN_COLOURS[origin] for origin in there])
+    return (
+        alt.Chart(pd.DataFrame(rows), height=520)
+        .mark_rect(stroke="white", strokeWidth=1, cursor="pointer")
+        .encode(
+            x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0)),
+            y=alt.Y("left:N", sort=order, title="from"),
+            color=alt.Color("origin:N", scale=colours, legend=alt.Legend(orient="bottom")),
+            tooltip=["left:N", "right:N", "origin:N", "layer:N"],
+        )
+        .add_params(click)
+    )
+
+
+@st.cache_resource(max_entries=24, show_spinner="Reading the sample sentences…")
+def _examples(language: str, character: str, digest: int) -> Examples:  # noqa: ARG001  (the digest decides)
+    return Examples(database(), language, character)
+
+
+def examples(language: str, character: str) -> Examples:
+    """The sample sentences of *language* as *character* says them; edits of curves do not make them anew."""
+    shared = ("common.tsv", "ipa.tsv", f"characters/{character}/mapping.tsv")
+    records = database().records
+    decisive = [
+        (path, rows) for path, rows in records.items() if path in shared or (path.startswith(f"{language}/") and "/curves/" not in path)
+    ]
+    return _examples(language, character, hash(repr(decisive)))
+
+
+def usual(place: Place) -> tuple[float, float]:
+    """How long the two phones usually last, where the language's sentences have them as a pair."""
+    known: dict[tuple[str, ...], tuple[float, float]] = st.session_state.setdefault("curves_usual", {})
+    key = place.left, place.right, place.language
+    if key not in known:
+        sentences = examples(place.language, place.character).containing(place.left, place.right)[:LISTENED]
+        known[key] = usual_lengths((spoken(sentence, place.language).schedule for sentence in sentences), place.left, place.right)
+    return known[key]
