@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 DEFAULT_CHARACTER = "robin"
 DEFAULT_LANGUAGE = "en"
 DEFAULT_FPS = 60.0
+ESPEAKING = ("espeak", "hangul", "kana", "pinyin")
+"""Voice plug-ins whose voices are espeak-ng's, which has variants of each."""
 SHORT = 0.25
 """Seconds that a recording may lack at its end before that is said."""
 
@@ -57,7 +59,7 @@ class Database:
         self.store = store
         self._revision = revision
         self._records: tuple[int, Records] | None = None
-        self._voices: dict[str, Voice] = {}
+        self._voices: dict[tuple[str, str], Voice] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -145,24 +147,32 @@ class Database:
 
     # From text or a recording to a line
 
-    def voice(self, language: str) -> Voice:
-        """The voice that speaks *language*."""
+    def voices(self, language: str) -> list[str]:
+        """The names of the voices that speak *language*, its own first. Raises `InputError` when there is no such language."""
+        from lipdb.speech.espeak_voices import TIMBRES
+
         row = self.language(language)
-        if language not in self._voices:
+        return [row["voice"], *(f"{row['voice']}+{timbre}" for timbre in TIMBRES if row["speech"] in ESPEAKING)]
+
+    def voice(self, language: str, name: str = "") -> Voice:
+        """The voice that speaks *language*: its own, or the one called *name*."""
+        row = self.language(language)
+        if (language, name) not in self._voices:
             makers = plugins.voices()
             maker = makers[_known(row["speech"], makers, "voice plug-in")]
-            self._voices[language] = maker(self.records, language)
-        return self._voices[language]
+            renamed: Records = {f"{language}/language.tsv": {(language,): {**row, "voice": name or row["voice"]}}}
+            self._voices[language, name] = maker({**self.records, **renamed}, language)
+        return self._voices[language, name]
 
-    def say(self, text: str, *, language: str = DEFAULT_LANGUAGE, allow_unknown: bool = False) -> Line:
-        """Speak *text*: a line with schedule and sound; the same text gives the same line.
+    def say(self, text: str, *, language: str = DEFAULT_LANGUAGE, voice: str = "", allow_unknown: bool = False) -> Line:
+        """Speak *text* with the language's own *voice* or another: a line with schedule and sound, the same for the same text.
 
         Raises `InputError` for text that the language can't read, and `UnknownSymbolError` for phones that no table
         knows unless *allow_unknown* maps them by articulation.
         """
         from lipdb.speech.cache import spoken
 
-        result = spoken(self.voice(language), text)
+        result = spoken(self.voice(language, voice), text)
         schedule, unknown = self.phoneset(language).resolve(result.schedule, allow_unknown=allow_unknown)
         # A command line may hold bytes that are no text, which no file takes.
         return Line(schedule, result.sound, text.encode(errors="replace").decode(), notes=(*result.notes, *_by_articulation(unknown)))

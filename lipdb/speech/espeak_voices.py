@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import ctypes
 
+TIMBRES = ("f2", "f3", "f5", "m3", "m7", "Andy", "grandma", "whisper")
+"""Some of espeak-ng's variants of every voice, those that sound least alike."""
+
 
 class _Voice(ctypes.Structure):
     """The head of espeak_VOICE of espeak-ng's speak_lib.h. *languages* begins with a byte of priority."""
@@ -17,8 +20,9 @@ class _Voice(ctypes.Structure):
 
 def set_voice(library: ctypes.CDLL, voice: str) -> bool:
     """Make *library* speak with *voice*: a name, a file, or a first language code. Whether there is such a voice."""
+    code, plus, timbre = voice.encode().partition(b"+")
     return library.espeak_SetVoiceByName(voice.encode()) == 0 or any(
-        library.espeak_SetVoiceByName(identifier) == 0 for identifier in _speaking(library, voice.encode())
+        library.espeak_SetVoiceByName(identifier + plus + timbre) == 0 for identifier in _speaking(library, code)
     )
 
 
