@@ -27,6 +27,7 @@ from lipdb.store.history import Change, Revision, difference, read_changes, read
 from lipdb.store.migrate import require_current, schema_of
 from lipdb.store.revisions import Present, newest_revision, present_rows
 from lipdb.store.scans import Scan, add_scan, read_scans
+from lipdb.store.search import Wanted, find_revisions, read_authors, read_kinds
 from lipdb.store.setup import create, upgrade_tables
 from lipdb.store.shipped import Upgrade, merge_shipped, merged_digest, text_digest
 from lipdb.store.tables import SCHEMA, change, record
@@ -162,6 +163,21 @@ class Store:
         """The revisions that changed tables below *prefix* (there the row with *key*), newest first."""
         with self._reading() as connection:
             return read_revisions(connection, prefix, key, limit)
+
+    def find(self, wanted: Wanted, *, limit: int | None = None) -> list[Revision]:
+        """The revisions that *wanted* names, newest first."""
+        with self._reading() as connection:
+            return find_revisions(connection, wanted, limit=limit)
+
+    def authors(self) -> list[str]:
+        """Everybody who has made a revision, sorted."""
+        with self._reading() as connection:
+            return read_authors(connection)
+
+    def kinds(self) -> list[str]:
+        """What the tables are about that have ever changed, sorted, such as ``curves`` and ``links``."""
+        with self._reading() as connection:
+            return read_kinds(connection)
 
     def changes(self, number: int, prefix: str | None = None) -> list[Change]:
         """What revision *number* did to the rows below *prefix*."""
