@@ -33,7 +33,9 @@ def coverage() -> None:
 @click.option("--mode", type=click.Choice(["exact", "fast"]), default="exact", show_default=True, help="Every line, or every word once.")
 @click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE", help="The result, a .parquet file.")
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="How many count side by side; one a core by default.")
-@click.option("--scheduler", default="", metavar="ADDRESS", help="Count on Dask: tcp://host:port of its scheduler, or local.")
+@click.option(
+    "--scheduler", default="", metavar="ADDRESS", help="Count on Dask (tcp://host:port, or local for a cluster of its own), or in threads."
+)
 @json_option
 @click.pass_obj
 def scan(

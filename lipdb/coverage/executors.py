@@ -20,6 +20,7 @@ from typing import Any, Generic, NamedTuple, Self, TypeVar
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+THREADS = "threads"
 AHEAD = 2
 """Tasks for each worker that are not done yet: so that none is idle, and memory stays bounded."""
 
@@ -34,16 +35,18 @@ class Done(NamedTuple, Generic[Task, Result]):
 class Workers:
     """Those who work. Use it as a context manager; afterwards none of them is left.
 
-    *count* is how many (0: one a core); *threads* of this process or processes of their own. With *scheduler*, the address of a
-    Dask scheduler or ``local`` for a cluster of our own, they are Dask's. *seconds* tells how much time of a processor a task
-    may take before a process gives it up; only the processes of this machine obey it.
+    *count* is how many (0: one a core); *threads* of this process or processes of their own. *scheduler* may be ``threads`` too;
+    with the address of a Dask scheduler, or ``local`` for a cluster of our own, they are Dask's. *seconds* tells how much time of
+    a processor a task may take before a process gives it up; only the processes of this machine obey it.
     """
 
     def __init__(
         self, count: int = 0, *, threads: bool = False, scheduler: str = "", seconds: Callable[[Any], float] | None = None
     ) -> None:
         self.count = count or cores()
-        self._threads, self._scheduler, self._seconds = threads, scheduler, seconds
+        self._threads = threads or scheduler == THREADS
+        self._scheduler = "" if scheduler == THREADS else scheduler
+        self._seconds = seconds
         self._executor: Executor
         self._stack = ExitStack()
 
@@ -154,9 +157,7 @@ def _follow(parent: int) -> None:
 
 def _end(pool: ProcessPoolExecutor) -> None:
     """End the processes of *pool* at once, whatever they do."""
-    processes = list((pool._processes or {}).values())
-    pool.shutdown(wait=False, cancel_futures=True)
-    for process in processes:
+    for process in list((pool._processes or {}).values()):
         process.terminate()
-    for process in processes:
-        process.join()
+    # Waits for the pool's own thread, which finds out and takes what is left of them away.
+    pool.shutdown(cancel_futures=True)

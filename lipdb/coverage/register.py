@@ -64,8 +64,9 @@ def scan(
     """Count the phone pairs of the corpus at *paths* as *language* says it, write the result and register it.
 
     *mode* is ``exact`` or ``fast``; *workers* how many count side by side (0: one a core), *scheduler* the address of a Dask
-    scheduler, or ``local`` for a cluster of our own; *output* the result's file, else one in the store's folder of scans;
-    *folder* where counts of parts are kept. Raises `InputError` when there is nothing to count, and `OutputError`.
+    scheduler, ``local`` for a cluster of our own, or ``threads`` of this process; *output* the result's file, else one in the
+    store's folder of scans; *folder* where counts of parts are kept. Raises `InputError` for a path that is not there,
+    and `OutputError`.
     """
     archive = Archive(folder or coverage_folder())
     counter = counter_of(db, language, mode, paths)
