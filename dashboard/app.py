@@ -1,13 +1,18 @@
 """The dashboard: `lipdb dashboard` starts it."""
 
+from pathlib import Path
+
 import streamlit as st
 from parts.session import greet
 
-st.set_page_config(page_title="lipdb", page_icon=":material/record_voice_over:", layout="wide")
+# An icon of its own: Streamlit would fetch one by name from the internet.
+MARK = Path(__file__).parent / "parts" / "mark.svg"
+st.set_page_config(page_title="lipdb", page_icon=str(MARK), layout="wide")
 page = st.navigation(
     [
         st.Page("pages/say.py", title="Say", icon=":material/record_voice_over:", default=True),
         st.Page("pages/curves.py", title="Curves", icon=":material/timeline:"),
+        st.Page("pages/history.py", title="History", icon=":material/history:"),
     ]
 )
 greet()
