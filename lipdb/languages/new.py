@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from lipdb.curated.check import check
 from lipdb.curated.folder import write_folder
 from lipdb.curated.schema import TIME_FORMAT
-from lipdb.curated.tsv import Records
+from lipdb.curated.tsv import Records, Row
 from lipdb.errors import InputError, OutputError, PhonesetError
 from lipdb.languages.folder import require_code
 from lipdb.languages.propose import NOTATION, Phone, Proposed, alias_rows, phone_rows, propose_phones, table
@@ -31,6 +31,16 @@ SCRIPT = re.compile(r"[A-Z][a-z]{3}")
 SENTENCES = 200
 NUMBERS = (*range(101), 200, 300, 400, 500, 600, 700, 800, 900, 1000, 1_000_000)
 LANGUAGE_COMMENT = "Proposed by rule from what espeak says; to be reviewed"
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """A language as a voice was heard to speak it: its *row*, what is *proposed*, the *sentences* that are kept, and *notes*."""
+
+    row: Row
+    proposed: Proposed
+    sentences: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,14 +72,29 @@ def new_language(
     there are no sentences. *records* are the curated data that the language joins. Nothing is written unless all is well.
     Raises `InputError`, `MissingToolError`, `OutputError`, and `PhonesetError` when *records* lack what the rows mention.
     """
+    require_free(code, folder, records)
+    heard = hear_language(code, records=records, voice=voice, name=name, script=script, text=text, source=source)
+    tables = {
+        "language": [heard.row],
+        "phones": phone_rows(heard.proposed, author=author, time=datetime.now(UTC).strftime(TIME_FORMAT)),
+        "aliases": alias_rows(heard.proposed, records),
+        "sentences": [{"sentence": sentence, "source": source} for sentence in heard.sentences],
+    }
+    _write({f"{code}/{kind}.tsv": table(f"{code}/{kind}.tsv", cells) for kind, cells in tables.items() if cells}, folder, code, records)
+    return NewLanguage(code, folder / code, heard.proposed.phones, len(heard.sentences), heard.notes)
+
+
+def hear_language(
+    code: str, *, records: Records, voice: str, name: str = "", script: str = "", text: str | None = None, source: str = ""
+) -> Heard:
+    """What `new_language` writes, to be looked at and changed first. Raises `InputError` and `MissingToolError`."""
     from lipdb.speech.espeak import EspeakVoice
     from lipdb.speech.espeak_list import espeak_voices, known_voice, letters_of, script_of
 
-    _require_free(code, folder, records)
     if script and not SCRIPT.fullmatch(script):
         raise InputError(f"{script!r} is no script; give its four letters (ISO 15924), such as Latn or Cyrl")
     known_voice(voice)
-    sentences = () if text is None else _sentences(text, source, records)
+    sentences = () if text is None else require_sentences(text, source, records)
     script = script or script_in(text or "") or script_of(voice)
     spoken = EspeakVoice(voice, code, script)
     said, notes = _hear(spoken, sentences or _numbers_and_letters(letters_of(script)))
@@ -79,17 +104,10 @@ def new_language(
     proposed = _propose(spoken, said, records)
     kept = (chosen(said, SENTENCES) if len(said) > SENTENCES else list(said)) if sentences else []
     row = {"language": code, "name": name or espeak_voices()[voice], "notation": NOTATION, "speech": "espeak", "voice": voice}
-    tables = {
-        "language": [row | {"script": script, "source": "lipdb", "comment": LANGUAGE_COMMENT}],
-        "phones": phone_rows(proposed, author=author, time=datetime.now(UTC).strftime(TIME_FORMAT)),
-        "aliases": alias_rows(proposed, records),
-        "sentences": [{"sentence": sentence, "source": source} for sentence in kept],
-    }
-    _write({f"{code}/{kind}.tsv": table(f"{code}/{kind}.tsv", cells) for kind, cells in tables.items() if cells}, folder, code, records)
     notes += [f"label {label!r} of espeak is no IPA segment; give it a row in {code}/aliases.tsv" for label in proposed.strange]
     if not sentences:
         notes.append("no text: the voice read numbers and letters only; give a --text for phones that these lack, and for sentences")
-    return NewLanguage(code, folder / code, proposed.phones, len(kept), tuple(notes))
+    return Heard(row | {"script": script, "source": "lipdb", "comment": LANGUAGE_COMMENT}, proposed, tuple(kept), tuple(notes))
 
 
 def _propose(voice: EspeakVoice, said: Mapping[str, Phrases], records: Records) -> Proposed:
@@ -99,8 +117,8 @@ def _propose(voice: EspeakVoice, said: Mapping[str, Phrases], records: Records) 
     return propose_phones(heard, examples_for(heard, list(words.items()), said), records)
 
 
-def _sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
-    """The sentences of *text*, which must have some, and a source."""
+def require_sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
+    """The sentences of *text*. Raises `InputError` unless there is one, and its source is known."""
     sentences = sentences_of(text)
     if not sentences:
         raise InputError("text: there is no word in it; give a text of the language, a few hundred sentences if you can")
@@ -109,7 +127,8 @@ def _sentences(text: str, source: str, records: Records) -> tuple[str, ...]:
     return sentences
 
 
-def _require_free(code: str, folder: Path, records: Records) -> None:
+def require_free(code: str, folder: Path, records: Records) -> None:
+    """Raise `InputError` unless *code* can be a further language's, in *folder* and in *records*."""
     require_code(code)
     if (folder / code).exists():
         raise InputError(f"{folder / code} is there already; edit it, or choose another code")
