@@ -13,10 +13,9 @@ from parts.lines import spoken
 from parts.session import database, shown_errors, visitor
 from parts.stage import stage
 
-from lipdb import Line
 from lipdb.curated.tsv import Records
 from lipdb.curves.draft import CHARACTER, COMMON, LANGUAGE, Place, overriding
-from lipdb.curves.rehearse import REACH, Rehearsal, occurrences
+from lipdb.curves.rehearse import Rehearsal, occurrences
 from lipdb.performance import Performance
 from lipdb.schedule import SILENCE
 
@@ -31,38 +30,23 @@ def ask_layer(place: Place) -> Place:
         LANGUAGE: db.language(place.language)["name"],
         CHARACTER: db.character(place.character).title or place.character,
     }
-    kind = st.segmented_control(
-        "Edit and save for", list(names), default=place.kind, format_func=names.__getitem__, key=f"curves_kind_{place.kind}"
-    )
-    kind = kind or place.kind
-    pairs.choice().kind = kind
-    if kind != place.kind:
-        st.rerun()
+    buttons, reach = st.columns([2, 3], vertical_alignment="center")
+    st.session_state["curves_kind"] = place.kind
+    kind = buttons.segmented_control(
+        "Edit and save for", list(names), required=True, format_func=names.__getitem__, key="curves_kind",
+        on_change=pairs.picked, args=("kind",), label_visibility="collapsed",
+    )  # fmt: skip
+    place = replace(place, kind=kind)
     everyone = f"every character of pose set {place.pose_set}"
-    reach = {
+    whom = {
         COMMON: f"every language, on {everyone}",
         LANGUAGE: f"{names[LANGUAGE]} only, on {everyone}",
         CHARACTER: f"{names[CHARACTER]} only, in every language",
     }
     hidden = overriding(db.records, place)
     but = f"; not {', '.join(hidden)}, which have curves of their own" if hidden else ""
-    st.caption(f":material/layers: Saved to `{place.layer}`: {reach[kind]}{but}.")
+    reach.caption(f":material/layers: Saved for {whom[place.kind]}{but} (layer `{place.layer}`).")
     return place
-
-
-def ask_lengths(place: Place) -> tuple[float, float]:
-    """How long the two phones last in the loop and in what the engine draws."""
-    usual = pairs.usual(place)
-    lengths = []
-    for column, phone, name, length in zip(st.columns(2), (place.left, place.right), ("first", "second"), usual, strict=True):
-        if phone == SILENCE:
-            column.caption(f"Silence: the pair covers {REACH} s of it.")
-            lengths.append(REACH)
-        else:
-            help_text = "What this phone usually lasts in this pair is set in the beginning."
-            key = f"curves_{name}_{place.pair}_{place.language}"
-            lengths.append(column.number_input(f"{phone} lasts (s)", 0.01, 1.0, length, 0.01, key=key, help=help_text))
-    return lengths[0], lengths[1]
 
 
 def show_loop(place: Place, records: Records, loop: Rehearsal) -> None:
@@ -71,7 +55,7 @@ def show_loop(place: Place, records: Records, loop: Rehearsal) -> None:
     track = loop.play(place.book(records), db.pose_set(place.pose_set))
     who = db.character(place.character)
     stage(
-        [Performance(track, who, None, Line(loop.schedule))],
+        [Performance(track, who)],
         key="curves_loop",
         loop=(0.0, loop.duration),
         autoplay=True,
@@ -153,7 +137,7 @@ def ask_save(now: Held) -> None:
 
 def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None:
     """Go on from what is saved now."""
-    rebase(place, keep=choice != "theirs")
+    rebase(place, keep=choice == "edit")
     if choice != "edit":
         done = f"Saved {what} to {place.layer} as revision {revision}." if revision else "Theirs stays; nothing of yours had to be saved."
         st.session_state.setdefault(SAVED, {})[place] = done
@@ -186,12 +170,11 @@ def show_sources(now: Held) -> None:
 def work(place: Place) -> None:
     """The part of the page that runs again with every key that is moved."""
     with shown_errors():
-        now = held(place)
+        now = held(place, lambda: pairs.usual(place))
         records = now.draft.applied(database().records, now.curves)
+        loop = Rehearsal.of(place.left, place.right, now.lengths)
         left, right = st.columns([3, 2], gap="medium")
         with left:
-            lengths = ask_lengths(place)
-            loop = Rehearsal.of(place.left, place.right, lengths)
             editor(now, loop.drawn(place.view(records), database().pose_set(place.pose_set)))
             if visitor().editor:
                 copy_from(now)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import streamlit as st
-from parts.charts import curves_chart
 from parts.lines import state
 from parts.session import Edited, save, shown_errors
+from parts.versions import curves_chart
 
 from lipdb.curated.tsv import Row
 from lipdb.curves.keys import Keys, parse_keys

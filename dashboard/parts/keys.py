@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from itertools import count
 from typing import Any
@@ -25,12 +25,14 @@ COMPONENT = "curves_keys"
 class Held:
     """One pair in one visitor's hands: as it stood at revision *seen*, and the *curves* that they would like instead.
 
-    A new *token* makes the browser forget its own state and take this one; *given* are curves that it takes over as a step.
+    The phones last *lengths* seconds where it is drawn and played. A new *token* makes the browser forget its own state
+    and take this one; *given* are curves that it takes over as a step.
     """
 
     draft: Draft
     seen: int
     curves: Curves
+    lengths: tuple[float, float]
     token: str = field(default_factory=lambda: str(next(_TOKENS)))
     given: dict[str, Any] | None = None
 
@@ -49,36 +51,40 @@ class Held:
         self.given = {"token": str(next(_TOKENS)), "curves": _plain(curves)}
 
 
-def held(place: Place) -> Held:
-    """The visitor's edits of *place*, begun when there are none, brought up to date when nothing is unsaved."""
+def held(place: Place, lengths: Callable[[], tuple[float, float]]) -> Held:
+    """The visitor's edits of *place*, begun when there are none, brought up to date when nothing is unsaved.
+
+    The phones begin with *lengths*.
+    """
     mine: dict[Place, Held] = st.session_state.setdefault(HELD, {})
-    seen = database().store.revision  # before the records are read: what is saved in between is seen as a conflict
     if place in mine:
         now = mine[place]
         _receive(now)
-        if now.seen == seen or now.changed:
-            return now
-        draft = Draft.load(database().records, place)
-        same = draft.curves == now.draft.curves
-        mine[place] = Held(draft, seen, draft.curves, now.token) if same else Held(draft, seen, draft.curves)
-    else:
-        draft = Draft.load(database().records, place)
-        mine[place] = Held(draft, seen, draft.curves)
-        clean = [other for other, one in mine.items() if other != place and not one.changed]
-        for old in clean[: max(len(mine) - MOST_HELD, 0)]:
-            del mine[old]
+        if not now.changed and now.seen != database().store.revision:
+            rebase(place, keep=False)
+        return mine[place]
+    mine[place] = _begun(place, lengths())
+    clean = [other for other, one in mine.items() if other != place and not one.changed]
+    for old in clean[: max(len(mine) - MOST_HELD, 0)]:
+        del mine[old]
     return mine[place]
 
 
-def rebase(place: Place, *, keep: bool) -> Held:
-    """Begin again from what is saved now; *keep* the visitor's curves on top of it, and what they can undo."""
+def _begun(place: Place, lengths: tuple[float, float]) -> Held:
+    seen = database().store.revision  # before the records are read: what is saved in between is seen as a conflict
+    draft = Draft.load(database().records, place)
+    return Held(draft, seen, draft.curves, lengths)
+
+
+def rebase(place: Place, *, keep: bool) -> None:
+    """Go on from what is saved now, with the visitor's changes on top of it if they are to *keep* them."""
     mine: dict[Place, Held] = st.session_state[HELD]
-    seen = database().store.revision
-    draft, before = Draft.load(database().records, place), mine[place]
-    # After a pair was saved as a whole, poses that were left to the layer below have rows of their own.
-    keeps = keep and (not before.draft.whole or draft.whole)
-    mine[place] = Held(draft, seen, before.curves, before.token) if keeps else Held(draft, seen, draft.curves)
-    return mine[place]
+    before, now = mine[place], _begun(place, mine[place].lengths)
+    if keep:
+        now.curves = before.curves
+    if now.curves == before.curves:  # then what was done in the browser can still be undone there
+        now.token, now.given = before.token, before.given
+    mine[place] = now
 
 
 def discard(place: Place) -> None:
@@ -93,9 +99,13 @@ def unsaved() -> list[Place]:
 
 def _receive(now: Held) -> None:
     """Take over what the browser has sent for this draft, unless it had not yet taken over what it was given."""
-    sent = (st.session_state.get(COMPONENT) or {}).get("curves") or {}
+    state = st.session_state.get(COMPONENT) or {}
+    sent, lengths = state.get("curves") or {}, state.get("lengths") or {}
     if sent.get("id") == now.token and (now.given is None or sent.get("taken") == now.given["token"]):
         now.curves = now.draft.read(sent["curves"])
+    if lengths.get("id") == now.token:
+        first, second = (float(length) for length in lengths["lengths"])
+        now.lengths = first, second
 
 
 def editor(now: Held, drawn: Mapping[str, Keys]) -> None:
@@ -119,13 +129,13 @@ def editor(now: Held, drawn: Mapping[str, Keys]) -> None:
         "id": now.token,
         "left": place.left,
         "right": place.right,
-        "layer": place.layer,
+        "lengths": now.lengths,
         "lanes": lanes,
         "locked": not visitor().editor,
         "silent": [place.left == SILENCE, place.right == SILENCE],
         "given": now.given,
     }
-    mount(data=data, key=COMPONENT, on_curves_change=lambda: None)
+    mount(data=data, key=COMPONENT, on_curves_change=lambda: None, on_lengths_change=lambda: None)
 
 
 def _plain(curves: Curves) -> dict[str, list[list[float]] | None]:

@@ -87,10 +87,10 @@ def ask() -> Place:
         (columns[5], "character", "Character", list(characters), characters),
     ):
         st.session_state[f"curves_{name}"] = getattr(chosen, name)
-        picked = column.selectbox(
-            label, options, key=f"curves_{name}", format_func=lambda one, shown=shown: shown.get(one, one), on_change=_picked, args=(name,)
+        value = column.selectbox(
+            label, options, key=f"curves_{name}", format_func=lambda one, shown=shown: shown.get(one, one), on_change=picked, args=(name,)
         )
-        setattr(chosen, name, picked)
+        setattr(chosen, name, value)
     st.session_state["curves_word"] = chosen.word
     columns[0].text_input("A word, and its pairs", key="curves_word", max_chars=200, placeholder="low", on_change=_typed)
     if columns[3].button("All pairs", icon=":material/grid_on:", key="curves_matrix", width="stretch"):
@@ -108,7 +108,8 @@ def _keep_known(chosen: Choice, languages: dict[str, str], characters: dict[str,
             setattr(chosen, name, getattr(usual, name))
 
 
-def _picked(name: str) -> None:
+def picked(name: str) -> None:
+    """Take over what the visitor chose in the widget of *name*."""
     setattr(st.session_state[CHOICE], name, st.session_state[f"curves_{name}"])
 
 
@@ -134,11 +135,11 @@ def _pairs_of_word(chosen: Choice) -> None:
     names = {f"{left}-{right}": (left, right) for left, right in pairs}
     st.session_state["curves_of_word"] = chosen.pair if chosen.pair in names else None
 
-    def picked() -> None:
+    def other() -> None:
         if st.session_state["curves_of_word"]:
             take(*names[st.session_state["curves_of_word"]])
 
-    st.pills("Pairs of the word", list(names), key="curves_of_word", on_change=picked, label_visibility="collapsed")
+    st.pills("Pairs of the word", list(names), key="curves_of_word", on_change=other, label_visibility="collapsed")
 
 
 @st.dialog("All pairs", width="large")

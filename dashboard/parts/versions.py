@@ -1,41 +1,33 @@
-"""Two versions of the curves of a pair over each other, pose by pose."""
+"""Versions of one curve in one chart, in colours that everybody can tell apart (Okabe and Ito 2008)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import altair as alt
 import pandas as pd
-import streamlit as st
 
-from lipdb.curves.curve import Curve
-
-COLUMNS = 3
-OLD, NEW = "#e69f00", "#0072b2"
+VERSION_COLOURS = {"mine": "#d55e00", "theirs": "#0072b2", "before": "#999999"}
+VERSION_DASHES = {"mine": [1, 0], "theirs": [6, 3], "before": [2, 2]}
 
 
-def draw_versions(poses: Mapping[str, tuple[Curve, Curve]], old: str, new: str) -> None:
-    """A small chart a pose: the *old* version dashed, the *new* one drawn through; the time is that of the pair, 0 to 1."""
-    columns = st.columns(COLUMNS)
-    for k, (pose, versions) in enumerate(poses.items()):
-        columns[k % COLUMNS].altair_chart(_chart(pose, dict(zip((old, new), versions, strict=True))), width="stretch")
-
-
-def _chart(pose: str, versions: Mapping[str, Curve]) -> alt.Chart:
+def curves_chart(title: str, versions: Mapping[str, Sequence[tuple[float, float]] | None]) -> alt.Chart:
+    """The versions of one curve, ``mine``, ``theirs`` and ``before``, over normalised time; None is not drawn."""
+    drawn = {who: keys or [(0.0, 0.0), (1.0, 0.0)] for who, keys in versions.items() if keys is not None}
     points = [
-        {"time": time, "weight": weight, "version": name, "order": k}
-        for name, curve in versions.items()
-        for k, (time, weight) in enumerate(curve.keys or ((0.0, 0.0), (1.0, 0.0)))
+        {"time": time, "weight": weight, "version": who, "order": k} for who, keys in drawn.items() for k, (time, weight) in enumerate(keys)
     ]
-    names = list(versions)
+    domain = list(VERSION_COLOURS)
     return (
-        alt.Chart(pd.DataFrame(points), title=pose, height=140)
-        .mark_line(point=alt.OverlayMarkDef(size=36), strokeWidth=2)
+        alt.Chart(pd.DataFrame(points, columns=["time", "weight", "version", "order"]), title=title, height=130)
+        .mark_line(point=True)
         .encode(
-            x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
+            x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1])),
             y=alt.Y("weight:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
-            color=alt.Color("version:N", scale=alt.Scale(domain=names, range=[OLD, NEW]), legend=alt.Legend(title=None, orient="bottom")),
-            strokeDash=alt.StrokeDash("version:N", scale=alt.Scale(domain=names, range=[[5, 3], [1, 0]]), legend=None),
+            color=alt.Color(
+                "version:N", scale=alt.Scale(domain=domain, range=list(VERSION_COLOURS.values())), legend=alt.Legend(title=None)
+            ),
+            strokeDash=alt.StrokeDash("version:N", scale=alt.Scale(domain=domain, range=list(VERSION_DASHES.values())), legend=None),
             order="order:O",
             tooltip=["version:N", "time:Q", "weight:Q"],
         )

@@ -22,7 +22,8 @@ export interface KeysData {
   id: string;
   left: string;
   right: string;
-  layer: string;
+  /** Seconds that the two phones last in what is drawn and played. */
+  lengths: [number, number];
   lanes: Lane[];
   locked: boolean;
   /** Whether the curve comes out of silence, or goes into it: it has to be at rest there. */
@@ -34,6 +35,8 @@ export interface KeysData {
 export const GRID = 0.05;
 /** Two keys are at least this far apart. */
 const CLOSE = 0.004;
+/** How far from the first key of an empty curve its feet stand. */
+const FOOT = 0.25;
 
 export function round(value: number): number {
   return Math.round(value * 1000) / 1000;
@@ -64,9 +67,14 @@ export function moved(keys: Key[], k: number, to: Key): Key[] {
   return keys.map((key, i) => (i === k ? [within(to[0], low, high), within(to[1], 0, 1)] : key));
 }
 
-/** `keys` with one at `at` more, and its index; null where there is no room. */
+/** `keys` with one at `at` more, and its index; null where there is no room. The first of all gets feet to stand on. */
 export function added(keys: Key[], at: Key): [Key[], number] | null {
   const made: Key = [within(at[0], 0, 1), within(at[1], 0, 1)];
+  if (!keys.length) {
+    const feet = [made[0] - FOOT, made[0] + FOOT].map((time): Key => [within(time, 0, 1), 0]);
+    const all = [feet[0], made, feet[1]].filter(([time], k) => k === 1 || Math.abs(time - made[0]) > CLOSE);
+    return [all, all.indexOf(made)];
+  }
   if (keys.some(([time]) => Math.abs(time - made[0]) < CLOSE)) return null;
   const k = keys.filter(([time]) => time < made[0]).length;
   return [[...keys.slice(0, k), made, ...keys.slice(k)], k];

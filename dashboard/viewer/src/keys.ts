@@ -25,6 +25,7 @@ class Editor {
   private now: Curves = {};
   private snapping = true;
   private timer = 0;
+  private lengths: [number, number] = [0, 0];
   private readonly lanes = document.createElement("div");
   private readonly head = document.createElement("div");
   private readonly hint = document.createElement("span");
@@ -109,12 +110,33 @@ class Editor {
     };
     this.views = new Map(data.lanes.map(({ pose }) => [pose, new LaneView(pose, events)]));
     this.lanes.replaceChildren(...[...this.views.values()].map((view) => view.root));
-    const names = [data.left, data.right].map((phone) => {
-      const name = document.createElement("span");
-      name.textContent = phone === "_" ? "silence" : phone;
-      return name;
-    });
+    this.lengths = [...data.lengths];
+    const names = [data.left, data.right].map((phone, k) => this.name(phone, k));
     this.head.replaceChildren(document.createElement("span"), ...names);
+  }
+
+  /** A phone over its half of the lanes, with how long it lasts. */
+  private name(phone: string, k: number): HTMLElement {
+    const made = document.createElement("label");
+    if (phone === "_") {
+      made.append("silence");
+      return made;
+    }
+    const length = document.createElement("input");
+    Object.assign(length, { type: "number", min: "0.01", max: "1", step: "0.01", value: String(this.lengths[k]) });
+    length.title = "How long it lasts in what is drawn and played; it begins with what is usual for this pair";
+    length.setAttribute("aria-label", `Seconds that ${phone} lasts`);
+    length.addEventListener("change", () => {
+      const value = Number(length.value);
+      if (!(value >= 0.01 && value <= 1)) {
+        length.value = String(this.lengths[k]);
+        return;
+      }
+      this.lengths[k] = value;
+      this.component?.setStateValue("lengths", { id: this.id, lengths: this.lengths });
+    });
+    made.append(phone, length, "s");
+    return made;
   }
 
   /** Everything as it is now. */

@@ -6,6 +6,7 @@ import { icon } from "./icons";
 const HEIGHT = 58;
 const PAD = 8;
 const SIZE = 6;
+const ZERO: Key[] = [[0, 0], [1, 0]];
 
 function svg<K extends keyof SVGElementTagNameMap>(tag: K, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -127,7 +128,7 @@ export class LaneView {
     this.root.classList.toggle("own", own);
     this.reset.hidden = !own || this.events.locked();
     this.state.textContent = own ? (keys.length ? "" : "zero") : (this.lane?.from ?? "");
-    for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(keys));
+    for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(keys.length ? keys : ZERO));
     while (this.handles.length > keys.length) this.handles.pop()?.remove();
     while (this.handles.length < keys.length) this.handles.push(this.handle(this.handles.length));
     this.handles.forEach((handle, k) => {
