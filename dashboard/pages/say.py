@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 import streamlit as st
-from parts.charts import STAGE_COLOURS, stages_chart
-from parts.lines import LARGEST, played, recorded, spoken
+from parts.downloads import download
+from parts.instant import explain
+from parts.lines import key_of, played, recorded, spoken
 from parts.session import database, shown_errors
 from parts.stage import stage
+from parts.stages import STAGE_COLOURS, stages_chart
 
 from lipdb import Line, plugins
-from lipdb.errors import InputError
-from lipdb.performance import Performance
+from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
 
 EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
-NOBODY = "nobody"
+LONG = 12.0
+"""Seconds of a line that the chart of the stages shows at once."""
+
+Beside = tuple[str, int | None]
+"""A character, and the revision of the data that moves it; None for today's."""
 
 
 def example(language: str) -> str:
@@ -25,102 +29,116 @@ def example(language: str) -> str:
     return EXAMPLES.get(language) or min(samples, key=len, default="")
 
 
-def ask() -> tuple[Line | None, str, str]:
-    """What is to be said, the character, and the one beside it."""
+def voice_title(name: str) -> str:
+    """A voice as people read it: ``en-us+f2`` is *en-us, f2*."""
+    return name.replace("+", ", ")
+
+
+def ask() -> tuple[Line | None, str, Beside | None]:
+    """What is to be said, the character, and who stands beside."""
     db = database()
     languages = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
-    first, second, third, fourth = st.columns([2, 2, 2, 2])
+    first, second, third, fourth, fifth = st.columns([3, 3, 3, 4, 4])
     source = first.segmented_control("From", ["Text", "Recording"], default="Text", key="say_source") or "Text"
     language = second.selectbox(
-        "Language", list(languages), index=list(languages).index("en"), format_func=languages.__getitem__, key="say_language"
+        "Language", languages, index=_place(languages, DEFAULT_LANGUAGE), format_func=languages.__getitem__, key="say_language"
     )
-    character = third.selectbox(
-        "Character", list(characters), index=list(characters).index("robin"), format_func=characters.__getitem__, key="say_character"
+    voices = db.voices(language)
+    voice = third.selectbox("Voice", voices, format_func=voice_title, key=f"say_voice_{language}", disabled=source != "Text")
+    character = fourth.selectbox(
+        "Character", characters, index=_place(characters, DEFAULT_CHARACTER), format_func=characters.__getitem__, key="say_character"
     )
-    beside = fourth.selectbox(
+    beside = fifth.selectbox(
         "Beside it",
-        [NOBODY, *characters, *(f"{character} at revision {r.number}" for r in db.store.history(limit=20))],
+        [None, *((name, None) for name in characters if name != character), *_versions(character)],
+        format_func=lambda one: _beside_title(one, characters),
         key="say_beside",
-        format_func=lambda name: characters.get(name, name),
         help="Another character, or this one as the data were before an edit, on the same clock.",
     )
     if source == "Text":
         text = st.text_input("Sentence", example(language), key=f"say_text_{language}", max_chars=2000)
-        return (spoken(text, language) if text.strip() else None), character, beside
+        return (spoken(text, language, voice) if text.strip() else None), character, beside
+    return _recording(language), character, beside
+
+
+def _place(names: dict[str, str], name: str) -> int:
+    return list(names).index(name) if name in names else 0
+
+
+def _versions(character: str) -> list[Beside]:
+    """The character before each of the last edits."""
+    return [(character, revision.number - 1) for revision in database().store.history(limit=20) if revision.number > 1]
+
+
+def _beside_title(one: Beside | None, characters: dict[str, str]) -> str:
+    if one is None:
+        return "nobody"
+    name, past = one
+    return characters.get(name, name) if past is None else f"as it was at revision {past}"
+
+
+def _recording(language: str) -> Line | None:
+    """The uploaded recording with its phones, once there is one."""
     left, right = st.columns(2)
-    aligned = left.file_uploader("Aligned phones (TextGrid, or a line's .json)", type=["TextGrid", "json"], key="say_grid")
-    audio = right.file_uploader("Recording (WAV)", type=["wav"], key="say_wav")
+    suffixes = sorted({*plugins.readers(), ".json"})
+    aligned = left.file_uploader(f"Aligned phones ({' '.join(suffixes)})", type=[suffix[1:] for suffix in suffixes], key="say_grid")
+    audio = right.file_uploader("Recording (.wav)", type=["wav"], key="say_wav")
     if aligned is None:
-        return None, character, beside
-    if any(file is not None and file.size > LARGEST for file in (aligned, audio)):
-        raise InputError(f"a file is larger than {LARGEST // 1_000_000} MB; cut the recording into shorter ones")
+        return None
     suffix = Path(aligned.name).suffix.lower()
-    line = recorded(aligned.getvalue(), suffix, audio.getvalue() if audio else None, language, database().store.revision)
-    return line, character, beside
-
-
-def companion(line: Line, beside: str) -> list[Performance]:
-    """The performance of who stands beside, if anybody does."""
-    if beside == NOBODY:
-        return []
-    who, _, revision = beside.partition(" at revision ")
-    return [played(line, who, past=int(revision) if revision else None)]
-
-
-def explain(line: Line, character: str, at: float) -> None:
-    """Which pair, layer and curve gave each weight at an instant."""
-    duration = len(played(line, character).track.weights) - 1
-    at = min(max(at, 0.0), duration / played(line, character).track.fps)
-    rows = [cause.to_row() for cause in database().explain(line, at=at, character=character)]
-    st.write(f"What made the weights at **{at:.2f} s**")
-    st.dataframe([row for row in rows if row["pair"] or row["weight"]], hide_index=True)
+    return recorded(aligned.getvalue(), suffix, audio.getvalue() if audio else None, language, database().store.revision)
 
 
 def look_inside(line: Line, character: str) -> None:
     """The stages of the engine, one colour a stage."""
     made = database().stages(line, character=character)
-    left, right = st.columns([1, 2])
-    pose = left.selectbox(
-        "Pose", ["all", *made.poses], index=1 + list(made.poses).index("open") if "open" in made.poses else 0, key="say_pose"
-    )
-    shown = right.pills("Stages", list(STAGE_COLOURS), default=list(STAGE_COLOURS), selection_mode="multi", key="say_stages")
-    st.altair_chart(stages_chart(made, line.schedule, list(made.poses) if pose == "all" else [pose], list(shown)), width="stretch")
+    left, middle, right = st.columns([2, 5, 3])
+    poses = list(made.poses)
+    pose = left.selectbox("Pose", ["all", *poses], index=1 + poses.index("open") if "open" in poses else 0, key="say_pose")
+    shown = middle.pills("Stages", list(STAGE_COLOURS), default=list(STAGE_COLOURS), selection_mode="multi", key="say_stages")
+    seconds = len(made.track.weights) / made.track.fps
+    window = (0.0, seconds)
+    if seconds > LONG:
+        window = right.slider("Seconds", 0.0, round(seconds, 1), (0.0, LONG), key="say_window")
+    if not shown:
+        st.info("Choose a stage to see it.")
+        return
+    chosen = poses if pose == "all" else [pose]
+    st.altair_chart(stages_chart(made, line.schedule, chosen, list(shown), window=window), width="stretch", key="say_chart")
 
 
 @st.fragment
-def download(performance: Performance) -> None:
-    """Any output format; it is made when the button is pressed."""
-    left, right = st.columns([1, 2], vertical_alignment="bottom")
-    suffix = left.selectbox("Format", sorted(plugins.exporters()), index=sorted(plugins.exporters()).index(".csv"), key="say_format")
-
-    def content() -> bytes:
-        with tempfile.TemporaryDirectory(prefix="lipdb-") as folder:
-            file = Path(folder) / f"line{suffix}"
-            performance.save(file)
-            return file.read_bytes()
-
-    right.download_button("Download", content, file_name=f"line{suffix}", on_click="ignore", key=f"say_download_{suffix}")
+def show(line: Line, character: str, beside: Beside | None) -> None:
+    """The player, and under it what can be asked of the line. A click into the lanes runs this part only."""
+    with shown_errors():
+        shown = [played(line, character)]
+        if beside is not None:
+            shown.append(played(line, beside[0], past=beside[1]))
+        picked = stage(shown, key="say_stage", autoplay=True)
+        if picked is not None:
+            st.session_state["say_at"] = key_of(line), picked
+        instant, inside, files = st.tabs(["This instant", "Stages of the engine", "Download"], key="say_tab", on_change="rerun")
+        if instant.open:
+            with instant:
+                of, at = st.session_state.get("say_at", ("", 0.0))
+                if of == key_of(line):
+                    explain(line, character, at)
+                else:
+                    st.caption("Click into the lanes: you see which pair, layer and curve gave each weight at that instant.")
+        if inside.open:
+            with inside:
+                look_inside(line, character)
+        if files.open:
+            with files:
+                download(shown[0], key="say")
 
 
 with shown_errors():
     line, character, beside = ask()
     if line is None:
-        st.info("Write a sentence, or upload a recording's TextGrid, to see a face speak it.")
+        st.info("Write a sentence, or upload a recording's phones (a Praat TextGrid), to see a face speak.", icon=":material/keyboard:")
         st.stop()
-    shown = [played(line, character), *companion(line, beside)]
-    for note in line.notes:
-        st.caption(f":material/info: {note}")
-    picked = stage(shown, key="say_stage", autoplay=True)
-    if picked is not None:
-        st.session_state["say_at"] = picked
-    explained, inside, files = st.tabs(["This instant", "Stages of the engine", "Download"])
-    with explained:
-        if "say_at" in st.session_state:
-            explain(line, character, st.session_state["say_at"])
-        else:
-            st.caption("Click into the lanes: you see which pair, layer and curve gave each weight at that instant.")
-    with inside:
-        look_inside(line, character)
-    with files:
-        download(shown[0])
+for note in line.notes:
+    st.caption(f":material/info: {note}")
+show(line, character, beside)

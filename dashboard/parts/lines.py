@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import streamlit as st
 from parts.session import database
 
 from lipdb import Database, Line
+from lipdb.errors import InputError
 from lipdb.performance import Performance
 
-LARGEST = 32_000_000
-"""Bytes that an uploaded file may have."""
+LARGEST = 20_000_000
+"""Bytes that an uploaded file may have: three and a half minutes of speech in studio quality."""
 
 
 @st.cache_resource(max_entries=64, show_spinner=False)
@@ -27,18 +29,22 @@ def state(revision: int | None) -> Database:
 
 
 @st.cache_resource(max_entries=128, show_spinner=False)
-def _spoken(text: str, language: str, revision: int) -> Line:  # noqa: ARG001  (the revision decides)
-    return database().say(text, language=language)
+def _spoken(text: str, language: str, voice: str, revision: int) -> Line:  # noqa: ARG001  (the revision decides)
+    return database().say(text, language=language, voice=voice)
 
 
-def spoken(text: str, language: str) -> Line:
-    """*text* as *language*'s voice says it. Raises `LipdbError`."""
-    return _spoken(text, language, database().store.revision)
+def spoken(text: str, language: str, voice: str = "") -> Line:
+    """*text* as *language*'s own voice or another says it. Raises `LipdbError`."""
+    return _spoken(text, language, voice, database().store.revision)
 
 
 @st.cache_resource(max_entries=64, show_spinner=False)
 def _played(key: str, revision: int, _line: Line, character: str, past: int | None) -> Performance:  # noqa: ARG001
-    return state(past).animate(_line, character=character)
+    db = state(past)
+    who = db.character(character)
+    if past is not None:
+        who = replace(who, title=f"{who.title or who.name} at revision {past}")
+    return db.animate(_line, character=who)
 
 
 def played(line: Line, character: str, *, past: int | None = None) -> Performance:
@@ -48,12 +54,17 @@ def played(line: Line, character: str, *, past: int | None = None) -> Performanc
 
 def key_of(line: Line) -> str:
     """Equal for equal lines."""
-    return hashlib.sha256(repr(line.to_json()).encode()).hexdigest()
+    digest = hashlib.sha256(repr(line.to_json()).encode())
+    if line.sound:
+        digest.update(line.sound.samples)
+    return digest.hexdigest()
 
 
-@st.cache_resource(max_entries=16, show_spinner=False)
+@st.cache_resource(max_entries=8, ttl=3600, show_spinner=False)
 def recorded(aligned: bytes, suffix: str, audio: bytes | None, language: str, revision: int) -> Line:  # noqa: ARG001
     """The line in an uploaded file that was aligned already, with its sound. Raises `LipdbError`."""
+    if max(len(aligned), len(audio or b"")) > LARGEST:
+        raise InputError(f"a file is larger than {LARGEST // 1_000_000} MB; cut the recording into shorter ones")
     with tempfile.TemporaryDirectory(prefix="lipdb-") as folder:
         file = Path(folder) / f"upload{suffix}"
         file.write_bytes(aligned)
@@ -63,7 +74,7 @@ def recorded(aligned: bytes, suffix: str, audio: bytes | None, language: str, re
             sound.write_bytes(audio)
         try:
             return database().sync(file, audio=sound, language=language)
-        except Exception as error:
-            # The visitor's own names, not those of the copies.
-            error.args = (str(error).replace(str(file), "the uploaded file").replace(str(sound), "the recording"),)
-            raise
+        except InputError as error:
+            # The visitor's own words, not the places of the copies.
+            told = str(error).replace(str(file), "the aligned file").replace(str(sound), "the recording")
+            raise InputError(told) from error

@@ -99,6 +99,7 @@ export class MeshView {
       });
       this.connect();
       this.frame();
+      await this.renderer.compileAsync(this.scene, this.cameras[0]);
       this.canvas.classList.remove("loading");
     } catch (error) {
       if (this.url !== url) return;
