@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 @hookimpl
 def lipdb_voices() -> Mapping[str, VoiceMaker]:
-    """espeak-ng for any language it speaks, pinyin for Mandarin, kana for Japanese, Hangul for Korean."""
-    return {"espeak": _espeak, "hangul": _hangul, "kana": _kana, "pinyin": _pinyin}
+    """espeak-ng for any language it speaks, pinyin for Mandarin, kana for Japanese, Hangul for Korean, silence for any other."""
+    return {"espeak": _espeak, "hangul": _hangul, "kana": _kana, "pinyin": _pinyin, "written": _written}
 
 
 @hookimpl
@@ -56,6 +56,12 @@ def _kana(records: Records, language: str) -> Voice:
     from lipdb.speech.japanese import kana_voice
 
     return kana_voice(records, language)
+
+
+def _written(records: Records, language: str) -> Voice:
+    from lipdb.speech.written import written_voice
+
+    return written_voice(records, language)
 
 
 def _textgrid(path: Path, *, tier: str | None = None) -> Schedule:
