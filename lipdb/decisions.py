@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 FALL_BACK = "fall-back"
 ORIGINS = ("authored", "fitted", "imported", "generated", FALL_BACK)
 """Where a curve comes from, the most worked on first; a fall-back stands in no table."""
+BY_HAND = ("authored", "fitted")
+"""The origins that need no more work."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +38,6 @@ class PairUse:
         return [pose for pose, found in self.curves.items() if found.fallback]
 
     @property
-    def gap(self) -> bool:
-        """Whether the curve of some pose is neither authored nor fitted: work for an artist."""
-        return any(found.curve.origin not in ("authored", "fitted") for found in self.curves.values())
-
-    @property
     def moving(self) -> list[Found]:
         """What moves the face; all that there is when nothing does."""
         return [found for found in self.curves.values() if found.curve.keys] or list(self.curves.values())
@@ -49,6 +46,11 @@ class PairUse:
     def origin(self) -> str:
         """The least worked on of the origins of what moves the face, ``fall-back`` for what no table has."""
         return max((FALL_BACK if found.fallback else found.curve.origin for found in self.moving), key=ORIGINS.index)
+
+    @property
+    def gap(self) -> bool:
+        """Whether some curve of what moves the face is neither authored nor fitted: work for an artist."""
+        return self.origin not in BY_HAND
 
     @property
     def layer(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +36,29 @@ class Gap:
             "origin": self.use.origin,
             "layer": self.use.layer,
         }
+
+
+@dataclass(frozen=True, slots=True)
+class Outlook:
+    """What is left to do: *gaps* of *pairs*, which is *hours* of work; per cent of running text *covered* by hand today.
+
+    *then* is what will be covered after the *next* gaps.
+    """
+
+    pairs: int
+    gaps: int
+    hours: float
+    covered: float
+    next: int
+    then: float
+
+
+def outlook(uses: Sequence[PairUse], *, minutes: float = MINUTES, next: int = 10) -> Outlook:
+    """The gaps among *uses* in numbers, and what the *next* of them will change. Of text without pairs all is covered."""
+    found = gaps(uses, minutes=minutes)
+    covered = found[0].covered - found[0].percent if found else 100.0
+    then = found[:next][-1].covered if found and next else covered
+    return Outlook(len(uses), len(found), len(found) * minutes / 60, covered, min(next, len(found)), then)
 
 
 def gaps(uses: Iterable[PairUse], *, minutes: float = MINUTES) -> list[Gap]:

@@ -39,10 +39,14 @@ def sentences_of(paths: Sequence[str], voice: Voice, phoneset: PhoneSet, *, sile
     return [(text, _pairs(codes, common, silence)) for text, codes in found.codes.items()]
 
 
-def _pairs(codes: Sequence[int], common: Sequence[tuple[str, ...]], silence: bool) -> frozenset[Pair]:
+def pairs_in(codes: Sequence[int], common: Sequence[tuple[str, ...]]) -> list[Pair]:
+    """The pairs of common phones that follow each other in a line of *codes* of labels, in order; *common* is by code."""
     phones = [name for code in codes for name in common[code]]
-    pairs = set(pairwise(phones)) - {(SILENCE, SILENCE)}
-    return frozenset(pairs if silence else {pair for pair in pairs if SILENCE not in pair})
+    return [pair for pair in pairwise(phones) if pair != (SILENCE, SILENCE)]
+
+
+def _pairs(codes: Sequence[int], common: Sequence[tuple[str, ...]], silence: bool) -> frozenset[Pair]:
+    return frozenset(pair for pair in pairs_in(codes, common) if silence or SILENCE not in pair)
 
 
 class _Collector:
