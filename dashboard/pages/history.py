@@ -7,7 +7,7 @@ from pathlib import Path
 import streamlit as st
 from parts.lines import state
 from parts.session import database, shown_errors, undo, visitor
-from parts.versions import draw_versions
+from parts.compare import draw_versions
 
 from lipdb.curves.changed import ChangedPair, changed_pairs
 from lipdb.errors import InputError, LipdbError
@@ -73,14 +73,21 @@ def choose(revisions: list[Revision]) -> Revision:
         for one in revisions
     ]
     numbers = [one.number for one in revisions]
-    key = f"history_table_{numbers[0]}_{numbers[-1]}_{len(numbers)}"
-    picked = st.dataframe(
-        rows, hide_index=True, on_select="rerun", selection_mode="single-row", key=key, height=min(38 + 35 * len(rows), 320)
-    )
-    if picked.selection.rows:
-        return revisions[picked.selection.rows[0]]
     given = st.query_params.get("revision", "")
-    return revisions[numbers.index(int(given))] if given.isdecimal() and int(given) in numbers else revisions[0]
+    first = numbers.index(int(given)) if given.isdecimal() and int(given) in numbers else 0
+    picked = st.dataframe(
+        rows,
+        hide_index=True,
+        height=min(38 + 35 * len(rows), 320),
+        column_config={"revision": st.column_config.NumberColumn(width=70), "when (UTC)": st.column_config.TextColumn(width=150)}
+        | {"who": st.column_config.TextColumn(width=150), "why": st.column_config.TextColumn(width="large")}
+        | {"rows": st.column_config.NumberColumn(width=70)},
+        on_select="rerun",
+        selection_mode="single-row",
+        selection_default={"selection": {"rows": [first]}},
+        key=f"history_table_{numbers[0]}_{numbers[-1]}_{len(numbers)}",
+    )
+    return revisions[picked.selection.rows[0] if picked.selection.rows else first]
 
 
 def take_back(one: Revision) -> None:
