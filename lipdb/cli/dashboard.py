@@ -37,7 +37,7 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
         "server.port": port,
         "server.address": address,
         "server.headless": str(no_browser).lower(),
-        "server.maxUploadSize": 64,
+        "server.maxUploadSize": 32,
         "browser.gatherUsageStats": "false",
         "client.toolbarMode": "minimal",
     }
