@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import streamlit as st
+from parts.compare import draw_versions
 from parts.lines import state
 from parts.session import database, shown_errors, undo, visitor
-from parts.compare import draw_versions
 
 from lipdb.curves.changed import ChangedPair, changed_pairs
 from lipdb.errors import InputError, LipdbError
@@ -80,7 +80,7 @@ def choose(revisions: list[Revision]) -> Revision:
         hide_index=True,
         height=min(38 + 35 * len(rows), 320),
         column_config={"revision": st.column_config.NumberColumn(width=70), "when (UTC)": st.column_config.TextColumn(width=150)}
-        | {"who": st.column_config.TextColumn(width=150), "why": st.column_config.TextColumn(width="large")}
+        | {"who": st.column_config.TextColumn(width=120), "why": st.column_config.TextColumn(width=360)}
         | {"rows": st.column_config.NumberColumn(width=70)},
         on_select="rerun",
         selection_mode="single-row",

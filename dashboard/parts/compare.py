@@ -28,13 +28,18 @@ def _chart(pose: str, versions: Mapping[str, Curve]) -> alt.Chart:
         for k, (time, weight) in enumerate(curve.keys or ((0.0, 0.0), (1.0, 0.0)))
     ]
     names = list(versions)
+    legend = alt.Legend(title=None, orient="top", symbolType="stroke")
     return (
         alt.Chart(pd.DataFrame(points), title=pose, height=240)
         .mark_line(point=alt.OverlayMarkDef(size=40), strokeWidth=2)
         .encode(
             x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
             y=alt.Y("weight:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
-            color=alt.Color("version:N", scale=alt.Scale(domain=names, range=[OLD, NEW]), legend=alt.Legend(title=None, orient="top", symbolType="stroke")),
+            color=alt.Color(
+                "version:N",
+                scale=alt.Scale(domain=names, range=[OLD, NEW]),
+                legend=alt.Legend(title=None, orient="top", symbolType="stroke"),
+            ),
             strokeDash=alt.StrokeDash("version:N", scale=alt.Scale(domain=names, range=[[5, 3], [1, 0]]), legend=None),
             order="order:O",
             tooltip=["version:N", "time:Q", "weight:Q"],
