@@ -28,7 +28,6 @@ def _chart(pose: str, versions: Mapping[str, Curve]) -> alt.Chart:
         for k, (time, weight) in enumerate(curve.keys or ((0.0, 0.0), (1.0, 0.0)))
     ]
     names = list(versions)
-    legend = alt.Legend(title=None, orient="top", symbolType="stroke")
     return (
         alt.Chart(pd.DataFrame(points), title=pose, height=240)
         .mark_line(point=alt.OverlayMarkDef(size=40), strokeWidth=2)
