@@ -18,9 +18,9 @@ MISSING = (
 )
 
 
-@st.cache_resource
-def _components() -> dict[str, Any] | None:
-    """The components of the viewer, registered once a server; None when it has not been built."""
+@st.cache_resource(max_entries=8)
+def _components(manager: int) -> dict[str, Any] | None:  # noqa: ARG001  (a server has one; tests in one process have many)
+    """The components of the viewer, registered once with *manager*; None when it has not been built."""
     built = VIEWER / "dist"
     if not all((built / f"{name}.js").is_file() for name in NAMES):
         return None
@@ -32,7 +32,7 @@ def _components() -> dict[str, Any] | None:
 
 def component(name: str) -> Any | None:
     """The component *name*, to be mounted; says what to do and is None when the viewer has not been built."""
-    components = _components()
+    components = _components(id(get_bidi_component_manager()))
     if components is None:
         st.warning(MISSING)
         return None
