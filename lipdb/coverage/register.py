@@ -60,13 +60,14 @@ def scan(
     workers: int = 0,
     scheduler: str = "",
     folder: Path | None = None,
+    title: str = "",
 ) -> Scanned:
     """Count the phone pairs of the corpus at *paths* as *language* says it, write the result and register it.
 
     *mode* is ``exact`` or ``fast``; *workers* how many count side by side (0: one a core), *scheduler* the address of a Dask
     scheduler, ``local`` for a cluster of our own, or ``threads`` of this process; *output* the result's file, else one in the
-    store's folder of scans; *folder* where counts of parts are kept. Raises `InputError` for a path that is not there,
-    and `OutputError`.
+    store's folder of scans; *folder* where counts of parts are kept; *title* what people call the corpus, if not by the
+    names of its paths. Raises `InputError` for a path that is not there, and `OutputError`.
     """
     archive = Archive(folder or coverage_folder())
     counter = counter_of(db, language, mode, paths)
@@ -78,7 +79,7 @@ def scan(
             if before is not None:
                 return Scanned(before, read_result(Path(before.path)), len(counted.places), counted.fresh, repeated=True)
             try:
-                return _written(db, paths, counted, counter, archive, language, mapping, output)
+                return _written(db, paths, counted, counter, archive, language, mapping, output, title)
             except (OSError, ValueError):
                 continue  # The damaged counts are gone now.
     raise OutputError(
@@ -95,6 +96,7 @@ def _written(
     language: str,
     mapping: str,
     output: Path | None,
+    title: str,
 ) -> Scanned:
     phoneset = db.phoneset(language)
     path = (output or _default_path(db, paths, counted, counter, language)).absolute()
@@ -105,6 +107,7 @@ def _written(
         "language": language,
         "mode": counter.mode,
         "corpus": list(paths),
+        "title": title or ", ".join(Path(path).name for path in paths),
         "content": counted.content,
         "counter": counter.key,
         "mapping": mapping,
