@@ -16,11 +16,9 @@ from lipdb import Line, plugins
 from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
 
 EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
-LONG = 12.0
-"""Seconds of a line that the chart of the stages shows at once."""
+LONG = 12.0  # seconds of a line that the chart of the stages shows at once
 
-Beside = tuple[str, int | None]
-"""A character, and the revision of the data that moves it; None for today's."""
+Beside = tuple[str, int | None]  # a character, and the revision of the data that moves it; None for today's
 
 
 def example(language: str) -> str:
@@ -39,7 +37,7 @@ def ask() -> tuple[Line | None, str, Beside | None]:
     db = database()
     languages = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
-    first, second, third, fourth, fifth = st.columns([3, 3, 3, 4, 4])
+    first, second, third, fourth, fifth = st.columns([4, 3, 3, 4, 4])
     source = first.segmented_control("From", ["Text", "Recording"], default="Text", key="say_source") or "Text"
     language = second.selectbox(
         "Language", languages, index=_place(languages, DEFAULT_LANGUAGE), format_func=languages.__getitem__, key="say_language"

@@ -40,6 +40,7 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
         "server.maxUploadSize": 32,
         "browser.gatherUsageStats": "false",
         "client.toolbarMode": "minimal",
+        "runner.magicEnabled": "false",
     }
     chosen = {"LIPDB_URL": options.db, "LIPDB_PHONESETS": options.phonesets}
     arguments = [f"--{name}={value}" for name, value in settings.items()]

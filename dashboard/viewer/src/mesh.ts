@@ -1,7 +1,7 @@
 // A character's mesh, drawn from one or several sides.
 
 import {
-  ACESFilmicToneMapping, Box3, DirectionalLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
   type Group, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -19,7 +19,19 @@ const FIELD = 24;
 
 /** How much more than what moves is shown. */
 const ROOM = 0.66;
+const MIRRORED = 64; // pixels of each side of the room that faces mirror; skin shows no more
 const REST = 500; // milliseconds of standing still after which a coarse picture is drawn once more, sharp
+
+/** Whether pictures are drawn by the processor, which needs a hundred times as long as a graphics card. */
+function drawsInSoftware(): boolean {
+  const pen = document.createElement("canvas").getContext("webgl2");
+  const told = pen?.getExtension("WEBGL_debug_renderer_info");
+  const name = pen && told ? String(pen.getParameter(told.UNMASKED_RENDERER_WEBGL)) : "";
+  pen?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+let software: boolean | null = null;
 
 export class MeshView {
   readonly canvas = document.createElement("canvas");
@@ -35,7 +47,7 @@ export class MeshView {
   private centre = new Vector3();
   private radius = 1;
   private track = new Track();
-  private pace = new Pace();
+  private readonly pace: Pace;
   private drawn = 0;
   private coarse = false;
   dirty = true;
@@ -44,7 +56,9 @@ export class MeshView {
 
   /** `failed` hears why there is no face to see; "" takes it back. Throws where the browser has no WebGL. */
   constructor(private readonly failed: (why: string) => void) {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
+    software ??= drawsInSoftware();
+    this.pace = new Pace(software ? 0.5 : 1);
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.light();
     this.controls = new OrbitControls(this.cameras[0], this.canvas);
@@ -62,10 +76,14 @@ export class MeshView {
 
   private light(): void {
     this.scene.clear();
-    const maker = new PMREMGenerator(this.renderer);
-    this.scene.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
-    maker.dispose();
-    this.scene.environmentIntensity = 0.55;
+    if (software) {
+      this.scene.add(new HemisphereLight(0xffffff, 0xb8b0a8, 3)); // about as bright as the room, without mirrors
+    } else {
+      const maker = new PMREMGenerator(this.renderer);
+      this.scene.environment = maker.fromScene(new RoomEnvironment(), 0, 0.1, 100, { size: MIRRORED }).texture;
+      maker.dispose();
+      this.scene.environmentIntensity = 0.55;
+    }
     for (const [colour, strength, x, y, z] of [[0xfff0dc, 2.2, -1.5, 1.6, 2.4], [0xcfe0ff, 1.4, 1.2, 1.5, -2]]) {
       const light = new DirectionalLight(colour, strength);
       light.position.set(x, y, z);
@@ -99,13 +117,20 @@ export class MeshView {
       });
       this.connect();
       this.frame();
-      await this.renderer.compileAsync(this.scene, this.cameras[0]);
+      await this.drawOnce();
       this.canvas.classList.remove("loading");
     } catch (error) {
       if (this.url !== url) return;
       this.url = "";
       this.failed(`The face could not be loaded (${error instanceof Error ? error.message : String(error)}). Reload the page.`);
     }
+  }
+
+  /** Draw what is there and wait for it: the first picture can take seconds, and nothing should sound meanwhile. */
+  private async drawOnce(): Promise<void> {
+    await this.renderer.compileAsync(this.scene, this.cameras[0]);
+    this.draw(0, false);
+    this.renderer.getContext().readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   private connect(): void {

@@ -4,17 +4,19 @@ const COARSEST = 0.3; // of the picture's width and height
 const STEP = 0.7;
 const SLOW = 34; // milliseconds a frame: less than 30 a second
 const QUICK = 20;
-const GAP = 1000; // a longer wait is no slow frame, but none
+const GAP = 1500; // a longer wait is no slow frame, but none
 const WINDOW = 8;
+const SHORT_OF_TIME = 400; // milliseconds after which fewer frames have to do
 const MOST_PATIENT = 64;
 
 /** Judges the middle of eight frames in a row: coarser at once when they are slow, sharper again after some quick rows. */
 export class Pace {
-  sharpness = 1;
   private last = 0;
   private waits: number[] = [];
   private quick = 0;
   private patience = 4;
+
+  constructor(public sharpness: number) {}
 
   /** Whether the sharpness has changed with the frame drawn at `now` milliseconds. */
   frame(now: number): boolean {
@@ -22,8 +24,9 @@ export class Pace {
     this.last = now;
     if (wait > GAP) this.waits = [];
     else this.waits.push(wait);
-    if (this.waits.length < WINDOW) return false;
-    const middle = this.waits.sort((a, b) => a - b)[WINDOW / 2];
+    const passed = this.waits.reduce((sum, each) => sum + each, 0);
+    if (this.waits.length < (passed > SHORT_OF_TIME ? 3 : WINDOW)) return false;
+    const middle = this.waits.sort((a, b) => a - b)[this.waits.length >> 1];
     this.waits = [];
     const before = this.sharpness;
     if (middle > SLOW) {

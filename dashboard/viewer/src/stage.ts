@@ -148,7 +148,9 @@ export class Stage {
   private async begin(id: string): Promise<void> {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     await Promise.all(this.views.map((view) => view.ready));
-    if (id === this.id && !this.clock.playing && this.clock.time === 0) this.clock.play();
+    if (id !== this.id || this.clock.playing || this.clock.time > 0) return;
+    performance.mark("lipdb speaks");
+    this.clock.play();
   }
 
   private stand(faces: Loaded[]): void {
