@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -56,11 +57,17 @@ def free_port() -> int:
 
 @pytest.fixture(scope="module")
 def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dashboard]:
-    folder = tmp_path_factory.mktemp("dashboard")
-    port, database = free_port(), folder / "lipdb.db"
-    environment = {**os.environ, "LIPDB_HOME": str(folder / "home"), "LIPDB_CACHE": str(folder / "cache")}
+    with serving(tmp_path_factory.mktemp("dashboard")) as dashboard:
+        yield dashboard
+
+
+@contextmanager
+def serving(folder: Path, *, port: int | None = None, **variables: str) -> Iterator[Dashboard]:
+    """A dashboard that runs in *folder*, with its database, home and cache there, and *variables* in its environment."""
+    port, database = port or free_port(), folder / "lipdb.db"
+    environment = {**os.environ, "LIPDB_HOME": str(folder / "home"), "LIPDB_CACHE": str(folder / "cache"), **variables}
     command = [sys.executable, "-m", "lipdb", "--db", str(database), "dashboard", "--port", str(port), "--no-browser"]
-    with (folder / "log").open("wb") as log, subprocess.Popen(command, env=environment, stdout=log, stderr=log) as server:
+    with (folder / "log").open("wb") as log, subprocess.Popen(command, env=environment, cwd=folder, stdout=log, stderr=log) as server:
         try:
             url = f"http://localhost:{port}"
             for _ in range(600):
