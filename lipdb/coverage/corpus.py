@@ -50,6 +50,9 @@ def sources(paths: Sequence[str]) -> Iterator[Source | Counts]:
             yield Source(path, Path(path), TEXT, 0)
         elif not Path(path).exists():
             raise InputError(f"{path}: there is no such file or folder; give a text, a folder of texts, or - for standard input")
+        elif Path(path).is_fifo():
+            # One that somebody names; those in a folder are not read, for nobody may ever write into them.
+            yield Source(printable_path(Path(path)), Path(path), TEXT, 0)
         else:
             files = list(_files(Path(path), set())) if Path(path).is_dir() else [Path(path)]
             aligned = [file for file in files if file.suffix.lower() == _TEXTGRID]
@@ -79,8 +82,6 @@ def _source(path: Path) -> Source | Counts:
     document = printable_path(path)
     try:
         told = path.stat()
-        if stat.S_ISFIFO(told.st_mode):
-            return Source(document, path, TEXT, 0)
         if not stat.S_ISREG(told.st_mode):
             return finding(document, NOT_READABLE, "it is no file")
         with path.open("rb") as file:

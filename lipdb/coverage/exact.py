@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import re
-import sys
-import unicodedata
 from array import array
 from collections import Counter as Tally
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, lru_cache
-from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import pyarrow as pa
@@ -18,45 +12,13 @@ from numpy.typing import NDArray
 
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, Counts, Lines, pair_table
 from lipdb.coverage.cut import BLOCK
-from lipdb.coverage.findings import (
-    CONTROLS,
-    EMOJI,
-    FOREIGN,
-    LONG_WORDS,
-    NO_WORDS,
-    NOT_SAID,
-    NUMBERS,
-    OTHER_SCRIPT,
-    REASONS,
-    SYMBOLS,
-)
 from lipdb.coverage.lines import shown
-from lipdb.errors import InputError
-from lipdb.schedule import SILENCE
-from lipdb.speech.text import LONGEST_WORD, check_script, cleaned_up, is_plain
-from lipdb.speech.voice import Reading, Voice
+from lipdb.coverage.speaker import Speaker
+from lipdb.speech.voice import Voice
 
 VERSION = 1
 """Change it with anything that changes counts of the same labels."""
-REMEMBERED = 1 << 16
-"""Lines that a process remembers, so that one that comes again in another part costs nothing."""
-LONGEST_REMEMBERED = 512
 _VOICES = 4
-
-
-class Said(NamedTuple):
-    """A line as it was said: codes of its labels in a phrase each, with ``_`` around them, and what there is to report."""
-
-    codes: array[int]
-    reasons: tuple[str, ...]
-
-
-@runtime_checkable
-class ReadsForeign(Protocol):
-    """A voice that can tell which words it reads by the rules of another language."""
-
-    def read(self, text: str) -> Reading:
-        """As `Voice.phrases`, with the number of foreign words."""
 
 
 @dataclass(frozen=True)
@@ -132,53 +94,6 @@ def _documents(lines: Lines, spoken: NDArray[np.int64]) -> pa.Table:
     return pa.table([pa.array(lines.names, pa.string()), given.astype(np.int64), spoken], schema=DOCUMENTS)
 
 
-class Speaker:
-    """A voice at work in one process: it remembers words, and lines that it has said."""
-
-    def __init__(self, voice: Voice) -> None:
-        self.voice = voice
-        self.labels = [SILENCE]
-        self._code = {SILENCE: 0}
-        self._word = lru_cache(maxsize=1 << 17)(self._codes)
-        self._read: Callable[[str], Reading] = voice.read if isinstance(voice, ReadsForeign) else lambda text: Reading(voice.phrases(text))
-        self._remembered = lru_cache(maxsize=REMEMBERED)(self._say)
-
-    def say(self, text: str) -> Said:
-        """*text* as the voice says it; no codes when it can't."""
-        return self._remembered(text) if len(text) <= LONGEST_REMEMBERED else self._say(text)
-
-    def _say(self, text: str) -> Said:
-        try:
-            reading = self._read(text)
-        except InputError:
-            return Said(array("H"), (self._refused(text),))
-        codes = array("H", (0,))
-        for phrase in reading.phrases:
-            for word in phrase:
-                codes.extend(self._word(word))
-            codes.append(0)
-        return Said(codes if len(codes) > 1 else array("H"), _remarks(text, reading) if len(codes) > 1 else (NO_WORDS,))
-
-    def _codes(self, word: tuple[str, ...]) -> array[int]:
-        for label in word:
-            if label not in self._code:
-                self._code[label] = len(self.labels)
-                self.labels.append(label)
-        return array("H", [self._code[label] for label in word])
-
-    def _refused(self, text: str) -> str:
-        """Why the voice did not read *text*."""
-        try:
-            cleaned = cleaned_up(text).text
-        except InputError:
-            return NO_WORDS
-        try:
-            check_script(cleaned, self.voice.script, language=self.voice.language)
-        except InputError:
-            return OTHER_SCRIPT
-        return NOT_SAID
-
-
 def _speaker(voice: Voice) -> Speaker:
     """The speaker of *voice* in this process; of several voices, the last few."""
     key = f"{voice.language} {voice.name} {voice.version}"
@@ -189,32 +104,4 @@ def _speaker(voice: Voice) -> Speaker:
     return _SPEAKERS[key]
 
 
-def _remarks(text: str, reading: Reading) -> tuple[str, ...]:
-    """What of *text* was read in a way that a person may not expect."""
-    foreign = (FOREIGN,) if reading.foreign else ()
-    named = _named().search(text)
-    if not named and len(text) <= LONGEST_WORD and is_plain(text):
-        return foreign
-    cleaned = cleaned_up(text)
-    present = {
-        EMOJI: cleaned.emoji,
-        CONTROLS: cleaned.broken,
-        LONG_WORDS: cleaned.long,
-        NUMBERS: named and any(unicodedata.category(c)[0] == "N" for c in text),
-        SYMBOLS: named and any(unicodedata.category(c)[0] != "N" for c in _named().findall(text)),
-    }
-    return (*(reason for reason in REASONS if present.get(reason)), *foreign)
-
-
 _SPEAKERS: dict[str, Speaker] = {}
-
-
-@cache
-def _named() -> re.Pattern[str]:
-    """Digits, and symbols that voices read by their names."""
-    kinds = ("Nd", "Sc", "Sm")
-    return re.compile(
-        "["
-        + re.escape("".join(c for c in map(chr, range(min(0x10000, sys.maxunicode))) if unicodedata.category(c) in kinds or c in "%&@#"))
-        + "]"
-    )

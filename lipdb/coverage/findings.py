@@ -24,10 +24,12 @@ TOO_LONG = "too long"
 OTHER_SCRIPT = "other script"
 NO_WORDS = "no words"
 NOT_SAID = "not said"
+FAILED = "voice failed"
 CRASHED = "voice broke down"
 EMOJI = "emoji"
 CONTROLS = "control characters"
 LONG_WORDS = "long words"
+LONG_LINE = "long line"
 NUMBERS = "numbers"
 SYMBOLS = "symbols"
 FOREIGN = "foreign words"
@@ -46,10 +48,12 @@ REASONS = {
     OTHER_SCRIPT: Reason(True, LINE, "it has letters of another script than the language's"),
     NO_WORDS: Reason(True, LINE, "there is no letter and no digit in it"),
     NOT_SAID: Reason(True, LINE, "the voice can't say it"),
+    FAILED: Reason(True, LINE, "the voice has a fault that it shows; please tell the people who make lipdb"),
     CRASHED: Reason(True, STRETCH, "the voice never came back from something in these lines"),
     EMOJI: Reason(False, LINE, "its emoji and pictograms are not read"),
     CONTROLS: Reason(False, LINE, "its control codes and broken characters are not read"),
     LONG_WORDS: Reason(False, LINE, "its words of more than 60 letters are read in pieces"),
+    LONG_LINE: Reason(False, LINE, "it is read in pieces of 2,000 characters, with a pause where no sentence ends"),
     NUMBERS: Reason(False, LINE, "its numbers are read out as words"),
     SYMBOLS: Reason(False, LINE, "its symbols (such as & % € +) are read by their names"),
     FOREIGN: Reason(False, LINE, "the voice reads some of its words by the rules of another language"),

@@ -27,7 +27,8 @@ _HAN = "\u3007\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\U00020000-\U0003ffff"
 _TONE_DIGITS = "⁰¹²³⁴⁵"
 _LETTER = rf"(?:[^\W\d_⁰-⁹¹²³¼½¾Ⅰ-ↈ{_HAN}]|[\u0300-\u030c])"
 _TOKEN = re.compile(rf"(?P<han>[{_HAN}]+)|(?P<latin>{_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*[{_TONE_DIGITS}]?)|(?P<other>.)")
-_NUMBERED = re.compile(rf"({_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*)([0-5])(?!\d|[.,]\d|%)")
+# From the first letter of a run only, and never back: a long run would be read again from each of its letters.
+_NUMBERED = re.compile(rf"(?<!{_LETTER})(?<!{_LETTER}['’-])({_LETTER}(?:{_LETTER}|['’-](?={_LETTER}))*+)([0-5])(?!\d|[.,]\d|%)")
 _REPEATED = re.compile(f"([{_HAN}])々")
 _U_DIAERESIS = re.compile(r"(?<=[lnLN])[uU]:")
 # 儿 in front of these begins a word of its own: 这儿子 is 这 + 儿子.
