@@ -21,6 +21,8 @@ WORD = "low"
 CHOICE, OPEN = "curves_choice", "curves_open"
 LISTENED = 4
 """Sentences from which the usual lengths of a pair's phones are taken."""
+CELL = 27
+"""Pixels of a pair in the matrix."""
 ORIGIN_COLOURS = dict(zip(ORIGINS, ("#009e73", "#56b4e9", "#0072b2", "#e69f00", "#d55e00"), strict=True))
 
 
@@ -146,8 +148,8 @@ def _pairs_of_word(chosen: Choice) -> None:
 def _matrix(language: str, character: str) -> None:
     """Every pair by where its curves come from; a click chooses one."""
     with shown_errors():
-        uses = _uses(language, character, database().store.revision)
-    event = st.altair_chart(_matrix_chart(uses), key="curves_cells", on_select="rerun", selection_mode="pair", width="stretch")
+        uses = every_pair(language, character, database().store.revision)
+    event = st.altair_chart(_matrix_chart(uses), key="curves_cells", on_select="rerun", selection_mode="pair", width="content")
     cells = event.selection.get("pair") or []
     if cells:
         take(cells[0]["left"], cells[0]["right"])
@@ -156,7 +158,8 @@ def _matrix(language: str, character: str) -> None:
 
 
 @st.cache_resource(max_entries=16, show_spinner=False)
-def _uses(language: str, character: str, revision: int) -> list[PairUse]:  # noqa: ARG001  (the revision decides)
+def every_pair(language: str, character: str, revision: int) -> list[PairUse]:  # noqa: ARG001  (the revision decides)
+    """What every pair of common phones uses today, without counts."""
     names = [key[0] for key in database().records["common.tsv"]]
     counts = {(left, right): 0.0 for left in names for right in names if (left, right) != (SILENCE, SILENCE)}
     return database().uses(counts, language=language, character=character)
@@ -169,11 +172,11 @@ def _matrix_chart(uses: list[PairUse]) -> alt.Chart:
     there = [origin for origin in ORIGINS if any(row["origin"] == origin for row in rows)]
     colours = alt.Scale(domain=there, range=[ORIGIN_COLOURS[origin] for origin in there])
     return (
-        alt.Chart(pd.DataFrame(rows), height=520)
+        alt.Chart(pd.DataFrame(rows), width=alt.Step(CELL), height=alt.Step(CELL))
         .mark_rect(stroke="white", strokeWidth=1, cursor="pointer")
         .encode(
-            x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0)),
-            y=alt.Y("left:N", sort=order, title="from"),
+            x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0, labelOverlap=False)),
+            y=alt.Y("left:N", sort=order, title="from", axis=alt.Axis(labelOverlap=False)),
             color=alt.Color("origin:N", scale=colours, legend=alt.Legend(orient="bottom")),
             tooltip=["left:N", "right:N", "origin:N", "layer:N"],
         )
