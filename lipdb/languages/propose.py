@@ -52,11 +52,15 @@ class Phone:
         return "; ".join(reason.removeprefix(REVIEW).strip() for reason in reasons)
 
     @property
-    def comment(self) -> str:
-        """The reason of the mapping with its confidence, after what must be reviewed."""
+    def reason(self) -> str:
+        """The reason of the mapping with its confidence, as a sentence without its end."""
         reason = "; ".join(note for note in self.proposal.reason.split("; ") if not note.startswith(REVIEW))
-        review = f"{REVIEW} {self.review}. " if self.review else ""
-        return f"{review}{reason[:1].upper()}{reason[1:]} ({self.proposal.confidence:g})"
+        return f"{reason[:1].upper()}{reason[1:]} ({self.proposal.confidence:g})"
+
+    @property
+    def comment(self) -> str:
+        """The reason, after what must be reviewed."""
+        return f"{REVIEW} {self.review}. {self.reason}" if self.review else self.reason
 
     def to_row(self) -> dict[str, Any]:
         """Plain data for a listing."""
