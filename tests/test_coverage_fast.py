@@ -21,9 +21,10 @@ from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.fast import FastCounter, fast_counter
 from lipdb.coverage.learn import learn
 from lipdb.coverage.lexicon import Lexicon
-from lipdb.coverage.lexicon_files import keep, open_lexicon
+from lipdb.coverage.lexicon_files import join_files, keep, open_lexicon
 from lipdb.coverage.words import cut, keys_of
 from lipdb.curated.folder import read_folder
+from lipdb.errors import InputError
 from lipdb.paths import phonesets_dir
 from lipdb.phones.phoneset import PhoneSet
 from lipdb.speech.espeak import espeak_voice
@@ -220,6 +221,25 @@ def test_the_voice_is_asked_once_for_a_word_and_never_for_one_that_is_kept(tmp_p
     known = opened.words(cut(texts.texts))
     assert [opened.readings.spelled(n) for n in opened.reading[known]] == [lexicon.readings.spelled(n) for n in lexicon.reading[numbers]]
     assert again.asked == []
+
+
+def test_many_files_of_answers_are_joined_and_nothing_is_lost(tmp_path: Path) -> None:
+    lexicon = open_lexicon(Letters(), None)
+    whole = set()
+    for first in range(6):
+        words = [f"{a}{b}{c}{d}" for a in "bdfgk" for b in "aeiou" for c in "bcdfghjklmnpqrst" for d in "abcdef"[first : first + 1] * 5]
+        words = [f"{word}{i}" for i, word in enumerate(words)]
+        lexicon.words(cut(pa.array([" ".join(words)])))
+        keep(lexicon, tmp_path)
+        whole |= set(words)
+    join_files(tmp_path)
+    assert len(list(tmp_path.iterdir())) == 1
+    assert len(open_lexicon(Letters(), tmp_path)) >= len(whole) - len(lexicon.asked)
+
+
+def test_a_language_without_spaces_is_refused() -> None:
+    with pytest.raises(InputError, match="without spaces"):
+        fast_counter(Letters(script="Jpan"), [])
 
 
 def test_a_damaged_file_of_answers_is_done_without(tmp_path: Path) -> None:

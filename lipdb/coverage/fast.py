@@ -21,7 +21,7 @@ from lipdb.coverage.findings import CONTROLS, EMOJI, NO_WORDS
 from lipdb.coverage.forms import Forms
 from lipdb.coverage.learn import learn
 from lipdb.coverage.lexicon import REMARKS, Lexicon, Masks, mask_of
-from lipdb.coverage.lexicon_files import MOST, keep, open_lexicon
+from lipdb.coverage.lexicon_files import MOST, join_files, keep, open_lexicon
 from lipdb.coverage.lines import shown
 from lipdb.coverage.running import LEFT_OUT, Running, running
 from lipdb.coverage.word_pairs import pairs_of
@@ -33,6 +33,8 @@ from lipdb.speech.voice import Voice
 VERSION = 1
 """Change it with anything that changes counts of the same labels."""
 SIZE = 1 << 24
+UNSPACED = ("Jpan", "Khmr", "Laoo", "Mymr", "Thai")
+"""Scripts without spaces, but for Chinese, of which each character is taken as a word: what it is, is mostly how it is read."""
 FOLDS = 8
 _LOOKED_AT = 8  # Bytes at the start and the end of a line: enough to tell lines apart.
 _MIX = np.uint64(0xD6E8FEB86659FD93)
@@ -45,8 +47,14 @@ def fast_counter(voice: Voice, sentences: Sequence[str], *, size: int = 0, folde
     """The counter of *voice* (give it `Voice.raw`), which learns what running speech does to words from *sentences*.
 
     *size* is that of the corpus in bytes, 0 if nobody knows: of a small one a larger share is counted both ways. Answers of
-    the voice are kept in *folder*; none, and they are not kept.
+    the voice are kept in *folder*; none, and they are not kept. Raises `InputError` for a script without spaces.
     """
+    if voice.script in UNSPACED:
+        raise InputError(
+            f"fast counting takes a text word by word, and {voice.language!r} is written without spaces between words; count it exactly"
+        )
+    if folder is not None:
+        join_files(folder)
     share = next(share for limit, share in _SHARES if (size and size <= limit) or not limit)
     return FastCounter(voice, learn(Lexicon(voice), sentences), share, folder)
 

@@ -15,9 +15,9 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from lipdb.coverage.codes import UNKNOWN, Codes, Keys
-from lipdb.coverage.exact import Speaker
 from lipdb.coverage.findings import NO_WORDS, REASONS
 from lipdb.coverage.readings import Numbers, Readings
+from lipdb.coverage.speaker import Speaker
 from lipdb.coverage.words import Words, each_a_word
 from lipdb.schedule import SILENCE
 from lipdb.speech.voice import Voice
@@ -79,7 +79,7 @@ class Lexicon:
             places = _first(keys, new)
             answers = [self._ask(words.word(place)) for place in places.tolist()]
             asked = pa.table([list(column) for column in zip(*answers, strict=True)], schema=ANSWERS)
-            self.learn(asked)
+            self._enter(asked, self.readings.number(asked["reading"].combine_chunks()))
             self.asked = pa.concat_tables([self.asked, asked])
             numbers[new] = self._words.find(keys[new])
         return numbers.astype(np.int64)  # numpy takes by nothing else
@@ -98,11 +98,13 @@ class Lexicon:
 
     def learn(self, answers: pa.Table) -> None:
         """Take over *answers* of the same voice, a table of `ANSWERS`, each to a word that is new."""
-        words, readings, remarks = (answers[name].combine_chunks() for name in ANSWERS.names)
-        self.reading = np.append(self.reading, self.readings.number(readings))
-        self.remarks = np.append(self.remarks, remarks.to_numpy().astype(np.uint32))
+        self._enter(answers, self.readings.number_many(answers["reading"].combine_chunks()))
+
+    def _enter(self, answers: pa.Table, readings: Numbers) -> None:
+        self.reading = np.append(self.reading, readings)
+        self.remarks = np.append(self.remarks, answers["remarks"].to_numpy().astype(np.uint32))
         self.unusual = (self.remarks != 0) | (self.reading == 0)
-        self._words.add(each_a_word(words).keys())
+        self._words.add(each_a_word(answers["word"].combine_chunks()).keys())
 
     def said(self, text: str) -> Spelled:
         """*text* as the voice says it in running speech."""

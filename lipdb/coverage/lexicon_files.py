@@ -1,8 +1,8 @@
 """A voice's answers, kept between scans: Parquet files that several processes may write at once.
 
-Each process adds files of its own, whole or not at all, named by what is in them. When there are many, whoever opens the
-lexicon joins them: the new file is there before the old ones go, so nothing is lost, and an answer that is there twice is
-the same answer. A file that can't be read is done without, and so is a folder that can't be written.
+Each process adds files of its own, whole or not at all, named by what is in them. Every scan joins them into one before it
+begins: the new file is there before the old ones go, so nothing is lost, and an answer that is there twice is the same
+answer. A file that can't be read is done without, and so is a folder that can't be written.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ FORMAT = 1
 MOST = 2_000_000
 """Words. A lexicon that has more is given up for an empty one, and none are kept beyond, whatever people write."""
 _WORTH_AANSWERS = 2000  # Answers: fewer are sooner asked for again than opened.
-_MANY = 16
+_MANY = 3
 _SUFFIX = ".parquet"
 
 
@@ -37,20 +37,17 @@ def lexicon_folder(voice: Voice) -> Path:
 def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
     """The lexicon of *voice* with what *folder* has."""
     lexicon = Lexicon(voice)
-    if folder is None or not (files := _files(folder)):
-        return lexicon
-    found = [(file, table) for file in files if (table := _read(file)) is not None]
-    if not found:
-        return lexicon
-    answers = pa.concat_tables([table for _, table in found])
-    if len(found) > 1:
-        once = answers.group_by("word", use_threads=False).aggregate([("reading", "min"), ("remarks", "min")])
-        answers = once.rename_columns(ANSWERS.names)
-    if len(files) > _MANY and _write(answers, folder):
+    if folder is not None and len(answers := _once([table for _, table in _tables(folder)])):
+        lexicon.learn(answers.slice(0, MOST))
+    return lexicon
+
+
+def join_files(folder: Path) -> None:
+    """Make one file of many, so that those who open the lexicon need not."""
+    found = _tables(folder)
+    if len(found) > _MANY and _write(_once([table for _, table in found]), folder):
         for file, _ in found:
             file.unlink(missing_ok=True)
-    lexicon.learn(answers.slice(0, MOST))
-    return lexicon
 
 
 def keep(lexicon: Lexicon, folder: Path | None) -> None:
@@ -62,11 +59,22 @@ def keep(lexicon: Lexicon, folder: Path | None) -> None:
     lexicon.asked = ANSWERS.empty_table()
 
 
-def _files(folder: Path) -> list[Path]:
+def _tables(folder: Path) -> list[tuple[Path, pa.Table]]:
+    """The files of *folder* that can be read, and what is in them."""
     try:
-        return sorted(folder.glob(f"[!.]*{_SUFFIX}"))
+        files = sorted(folder.glob(f"[!.]*{_SUFFIX}"))
     except OSError:
         return []
+    return [(file, table) for file in files if (table := _read(file)) is not None]
+
+
+def _once(tables: list[pa.Table]) -> pa.Table:
+    """All *tables* together, each word once."""
+    answers = pa.concat_tables([ANSWERS.empty_table(), *tables])
+    if len(tables) < 2:
+        return answers
+    once = answers.group_by("word", use_threads=False).aggregate([("reading", "min"), ("remarks", "min")])
+    return once.rename_columns(ANSWERS.names)
 
 
 def _read(file: Path) -> pa.Table | None:

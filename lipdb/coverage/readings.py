@@ -16,7 +16,7 @@ Numbers = NDArray[np.int32]
 
 
 class Readings:
-    """Distinct readings, numbered as they come: labels between spaces, ``_`` where the voice pauses within one.
+    """Readings, numbered as they come: labels between spaces, ``_`` where the voice pauses within one.
 
     Reading 0 is the empty one, label 0 is ``_``.
 
@@ -37,7 +37,7 @@ class Readings:
         self._label_numbers = {SILENCE: 0}
 
     def __len__(self) -> int:
-        return len(self._numbers)
+        return len(self.first)
 
     def number(self, readings: pa.StringArray) -> Numbers:
         """The numbers of *readings*; those that are new are added."""
@@ -45,9 +45,18 @@ class Readings:
         different = encoded.dictionary.to_pylist()
         new = [i for i, reading in enumerate(different) if reading not in self._numbers]
         if new:
+            self._numbers |= {different[i]: len(self) + k for k, i in enumerate(new)}
             self._add(encoded.dictionary.take(pa.array(new)))
-            self._numbers |= {different[i]: len(self._numbers) + k for k, i in enumerate(new)}
         numbers = np.array([self._numbers[reading] for reading in different], np.int32)
+        found: Numbers = numbers[encoded.indices.to_numpy()]
+        return found
+
+    def number_many(self, readings: pa.StringArray) -> Numbers:
+        """As `number`, quicker for very many: they get numbers of their own even if they are there already."""
+        encoded = readings.dictionary_encode()
+        said = pc.not_equal(encoded.dictionary, "").to_numpy(zero_copy_only=False)
+        numbers = np.where(said, len(self) - 1 + np.cumsum(said), 0).astype(np.int32)
+        self._add(encoded.dictionary.filter(pa.array(said)))
         found: Numbers = numbers[encoded.indices.to_numpy()]
         return found
 
@@ -69,6 +78,8 @@ class Readings:
         return np.array([self._label_numbers[label] for label in labels], np.int32)
 
     def _add(self, readings: pa.StringArray) -> None:
+        if not len(readings):
+            return
         runs = pc.split_pattern(readings, " ")
         encoded = runs.flatten().dictionary_encode()
         labels = self.label_numbers(encoded.dictionary.to_pylist())[encoded.indices.to_numpy()]
