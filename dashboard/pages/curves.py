@@ -7,14 +7,14 @@ from functools import partial
 
 import streamlit as st
 from parts import pairs
-from parts.conflict import Choice, save_or_ask
+from parts.conflict import Choice, ask_again, save_or_ask
 from parts.keys import Held, discard, editor, held, rebase, unsaved
 from parts.lines import spoken
 from parts.session import database, shown_errors, visitor
 from parts.stage import stage
 
 from lipdb.curated.tsv import Records
-from lipdb.curves.draft import CHARACTER, COMMON, LANGUAGE, Place, overriding
+from lipdb.curves.draft import CHARACTER, COMMON, LANGUAGE, Draft, Place, overriding
 from lipdb.curves.rehearse import Rehearsal, occurrences
 from lipdb.performance import Performance
 from lipdb.schedule import SILENCE
@@ -28,9 +28,9 @@ def ask_layer(place: Place) -> Place:
     names = {
         COMMON: "All languages",
         LANGUAGE: db.language(place.language)["name"],
-        CHARACTER: db.character(place.character).title or place.character,
+        CHARACTER: db.character(place.character).title.partition(",")[0] or place.character,
     }
-    buttons, reach = st.columns([2, 3], vertical_alignment="center")
+    buttons, reach = st.columns([4, 5], vertical_alignment="center")
     st.session_state["curves_kind"] = place.kind
     kind = buttons.segmented_control(
         "Edit and save for", list(names), required=True, format_func=names.__getitem__, key="curves_kind",
@@ -75,10 +75,10 @@ def show_sentence(place: Place, records: Records) -> None:
         key = f"curves_sentence_{place.pair}_{place.language}"
         number = st.session_state.get(key, 0) % len(found)
         text = found[number]
-        said, button = st.columns([4, 1], vertical_alignment="center")
+        said, button = st.columns([5, 1], vertical_alignment="center")
         said.write(f"“{text}”")
         button.button(
-            "Next", key="curves_next", icon=":material/skip_next:", help=f"Sentence {number + 1} of {len(found)} with this pair",
+            "", key="curves_next", icon=":material/skip_next:", help=f"The next sentence with this pair ({number + 1} of {len(found)})",
             width="stretch", on_click=lambda: st.session_state.update({key: number + 1}),
         )  # fmt: skip
     line = spoken(text, place.language)
@@ -94,16 +94,19 @@ def copy_from(now: Held) -> None:
     place, db = now.draft.place, database()
     names = [key[0] for key in db.records["common.tsv"]]
     every = [f"{left}-{right}" for left in names for right in names if (left, right) != (SILENCE, SILENCE)]
-    with st.popover("Copy from", icon=":material/content_copy:", width="stretch"):
-        pair = st.selectbox("Pair", every, index=every.index(place.pair), key=f"curves_copy_pair_{place.pair}")
-        layers = layers_of(place)
-        layer = st.selectbox("As used by", list(layers), key="curves_copy_layer")
-        poses = st.multiselect("Poses", list(now.draft.lanes), default=list(now.draft.lanes), key=f"curves_copy_poses_{place.pose_set}")
-        if st.button("Copy", key="curves_copy", type="primary"):
-            left, _, right = pair.partition("-")
-            source = layers[layer].view(db.records)
-            now.give({pose: source.find(left, right, pose).curve.keys for pose in poses})
-            st.rerun(scope="fragment")
+    layers, poses = layers_of(place), list(now.draft.lanes)
+    pair, layer, chosen = (f"curves_copy_{what}_{place.pose_set}_{place.pair}" for what in ("pair", "layer", "poses"))
+
+    def take_over() -> None:
+        left, _, right = st.session_state[pair].partition("-")
+        source = layers[st.session_state[layer]].view(db.records)
+        now.give({pose: source.find(left, right, pose).curve.keys for pose in st.session_state[chosen]})
+
+    with st.popover("Copy from", icon=":material/content_copy:", help="Take over the curves of another pair, language or character"):
+        st.selectbox("Pair", every, index=every.index(place.pair), key=pair)
+        st.selectbox("As used by", list(layers), key=layer)
+        st.multiselect("Poses", poses, default=poses, key=chosen)
+        st.button("Copy", key="curves_copy", type="primary", on_click=take_over)
 
 
 def layers_of(place: Place) -> dict[str, Place]:
@@ -116,23 +119,34 @@ def layers_of(place: Place) -> dict[str, Place]:
 
 
 def ask_save(now: Held) -> None:
-    """Note and button; what is not saved yet."""
-    place, who = now.draft.place, visitor()
-    if not who.editor:
+    """Copying, note and button; what is not saved yet."""
+    if not visitor().editor:
         return
-    with st.form("curves_save", border=False):
+    place = now.draft.place
+    copying, saving = st.columns([2, 5], vertical_alignment="bottom")
+    with copying:
+        copy_from(now)
+    with saving.form("curves_save", border=False):
         note, button = st.columns([3, 1], vertical_alignment="bottom")
         text = note.text_input("Note for the history", key="curves_note", placeholder="why", max_chars=300)
-        pressed = button.form_submit_button("Save", type="primary", icon=":material/save:", disabled=not now.changed, width="stretch")
+        pressed = button.form_submit_button("Save", type="primary", disabled=not now.changed, width="stretch")
     if now.changed:
         left, right = st.columns([3, 1], vertical_alignment="center")
-        left.caption(f":material/edit: Not saved yet: {', '.join(now.changed)}.")
+        left.caption(f":material/edit: Not saved yet: {', '.join(now.changed)}.{overtaken(now)}")
         right.button("Discard", key="curves_discard", on_click=partial(discard, place), width="stretch")
     elif place in st.session_state.get(SAVED, {}):
         st.success(st.session_state[SAVED][place], icon=":material/check:")
     if pressed:
         what = f"{place.pair}: {', '.join(now.changed)}"
         save_or_ask(now.edits(), note=text.strip() or what, seen=now.seen, after=partial(saved, place, what))
+
+
+def overtaken(now: Held) -> str:
+    """What to say when somebody else has saved the pair since the visitor began."""
+    place = now.draft.place
+    if now.seen == database().store.revision or Draft.load(database().records, place).curves == now.draft.curves:
+        return ""
+    return " Somebody else has saved this pair meanwhile; when you save you see both versions, and choose."
 
 
 def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None:
@@ -176,8 +190,6 @@ def work(place: Place) -> None:
         left, right = st.columns([3, 2], gap="medium")
         with left:
             editor(now, loop.drawn(place.view(records), database().pose_set(place.pose_set)))
-            if visitor().editor:
-                copy_from(now)
             ask_save(now)
             show_sources(now)
         with right:
@@ -186,6 +198,7 @@ def work(place: Place) -> None:
 
 
 with shown_errors():
+    ask_again()
     place = ask_layer(pairs.ask())
     others = [other.pair for other in unsaved() if other != place]
     if others:

@@ -39,10 +39,20 @@ def save_or_ask(edits: Sequence[Edited], *, note: str, seen: int, after: Callabl
         after("mine", save(edits, note=note, seen=seen))
     except EditConflictError as error:
         st.session_state[ASKED] = _Asked(tuple(edits), note, seen, error, after)
+        st.rerun()
+
+
+def ask_again() -> None:
+    """Open the dialog while a question is not answered; pages call it once, before they show anything else."""
+    if ASKED in st.session_state:
         _ask()
 
 
-@st.dialog("Somebody else saved first", width="large")
+def _dismissed() -> None:
+    st.session_state.pop(ASKED).after("edit", None)
+
+
+@st.dialog("Somebody else saved first", width="large", on_dismiss=_dismissed)
 def _ask() -> None:
     asked: _Asked = st.session_state[ASKED]
     error = asked.error
@@ -52,23 +62,24 @@ def _ask() -> None:
     for versions in error.conflicts:
         _both(versions, asked.seen)
     left, middle, right = st.columns(3)
-    if left.button("Save mine over theirs", key="conflict_mine", width="stretch"):
-        _answer(asked, "mine", asked.edits)
-    if middle.button("Keep theirs", key="conflict_theirs", width="stretch", help="Your other changes are saved."):
-        lost = {(one.path, one.key) for one in error.conflicts}
-        _answer(asked, "theirs", [one for one in asked.edits if (one.table, one.key) not in lost])
-    if right.button("Go on editing", key="conflict_edit", width="stretch", help="Nothing is saved; your version stays in the editor."):
-        _answer(asked, "edit", ())
+    lost = {(one.path, one.key) for one in error.conflicts}
+    with shown_errors():
+        if left.button("Save mine over theirs", key="conflict_mine", width="stretch"):
+            _answer(asked, "mine", asked.edits)
+        if middle.button("Keep theirs", key="conflict_theirs", width="stretch", help="Your other changes are saved."):
+            _answer(asked, "theirs", [one for one in asked.edits if (one.table, one.key) not in lost])
+        if right.button("Go on editing", key="conflict_edit", width="stretch", help="Nothing is saved; your version stays in the editor."):
+            _answer(asked, "edit", ())
 
 
 def _answer(asked: _Asked, choice: Choice, edits: Sequence[Edited]) -> None:
     """Save what was chosen, over the versions that were shown and no newer ones; a third person's are asked about again."""
-    with shown_errors():
-        try:
-            revision = save(edits, note=asked.note, seen=asked.error.revision) if edits else None
-        except EditConflictError as error:
-            st.session_state[ASKED] = _Asked(asked.edits, asked.note, asked.error.revision, error, asked.after)
-            st.rerun(scope="fragment")
+    seen = asked.error.revision
+    try:
+        revision = save(edits, note=asked.note, seen=seen) if edits else None
+    except EditConflictError as error:
+        st.session_state[ASKED] = _Asked(asked.edits, asked.note, seen, error, asked.after)
+        st.rerun()
     del st.session_state[ASKED]
     asked.after(choice, revision)
     st.rerun()

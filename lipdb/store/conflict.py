@@ -36,12 +36,12 @@ class EditConflictError(ConflictError):
     """An edit or an undo that would lose somebody else's newer work; nothing was saved.
 
     *conflicts* has every row with both versions; *mine* and *theirs* are those of the first; *revision* is the newest
-    revision that touched one of them, the one to look at before trying again.
+    revision that touched one of them, by *author*: the one to look at before trying again.
     """
 
     def __init__(self, conflicts: Sequence[Versions], *, revision: int, author: str, doing: str) -> None:
         self.conflicts = tuple(conflicts)
-        self.revision = revision
+        self.revision, self.author = revision, author
         self.mine = self.conflicts[0].mine
         self.theirs = self.conflicts[0].theirs
         more = f" (and {len(self.conflicts) - 1} more rows)" if len(self.conflicts) > 1 else ""

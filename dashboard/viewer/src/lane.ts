@@ -3,8 +3,8 @@
 import { added, GRID, moved, rested, round, type Key, type Lane } from "./curve";
 import { icon } from "./icons";
 
-const HEIGHT = 58;
-const PAD = 8;
+const HEIGHT = 50;
+const PAD = 7;
 const SIZE = 6;
 const ZERO: Key[] = [[0, 0], [1, 0]];
 

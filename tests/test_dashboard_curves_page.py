@@ -1,0 +1,265 @@
+"""The page Curves without a browser: what it sends to the editor, what it does with the answer, what it saves."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from typing import Any
+
+import pytest
+import streamlit as st
+from streamlit.testing.v1 import AppTest
+
+import lipdb
+from lipdb.paths import data_dir
+
+DASHBOARD = data_dir("dashboard")
+PEAK = [[0.0, 0.0], [0.5, 0.9], [1.0, 0.0]]
+
+
+@pytest.fixture(scope="module")
+def template(tmp_path_factory):
+    """A database as it ships, to be copied."""
+    file = tmp_path_factory.mktemp("template") / "lipdb.db"
+    lipdb.open(str(file)).close()
+    return file
+
+
+@pytest.fixture
+def db(template, tmp_path, monkeypatch):
+    """A database of its own that the page works on."""
+    monkeypatch.syspath_prepend(str(DASHBOARD))
+    file = shutil.copy(template, tmp_path)
+    monkeypatch.setenv("LIPDB_URL", str(file))
+    st.cache_resource.clear()
+    with lipdb.open(str(file)) as database:
+        yield database
+    st.cache_resource.clear()
+    for name in [name for name in sys.modules if name == "parts" or name.startswith("parts.")]:
+        del sys.modules[name]
+
+
+def curves_page(db, **session: Any) -> AppTest:
+    page = AppTest.from_file(str(DASHBOARD / "pages" / "curves.py"), default_timeout=60)
+    page.session_state["visitor"] = "anna"
+    for name, value in session.items():
+        page.session_state[name] = value
+    return page.run()
+
+
+def sent(page: AppTest) -> dict[str, Any]:
+    """What the page sends to the editor of keys."""
+    assert not page.exception
+    found = [one.proto for one in page.get("bidi_component") if one.proto.component_name.endswith("keys")]
+    assert len(found) == 1
+    return json.loads(found[0].json)
+
+
+def edit(page: AppTest, **curves: Any) -> AppTest:
+    """What the editor sends when the visitor has changed *curves*, and the page after it."""
+    data = sent(page)
+    now = {lane["pose"]: lane["keys"] for lane in data["lanes"]}
+    taken = data["given"]["token"] if data["given"] else ""
+    page.session_state["curves_keys"] = {"curves": {"id": data["id"], "taken": taken, "curves": {**now, **curves}}}
+    return page.run()
+
+
+def press(page: AppTest, label: str) -> AppTest:
+    return next(button for button in page.button if button.label == label).click().run()
+
+
+def lane(page: AppTest, pose: str) -> dict[str, Any]:
+    return next(one for one in sent(page)["lanes"] if one["pose"] == pose)
+
+
+def said(page: AppTest) -> str:
+    return " ".join(element.value for kind in (page.caption, page.success, page.error) for element in kind)
+
+
+def test_the_page_opens_with_a_pair_its_curves_and_its_sentence(db) -> None:
+    page = curves_page(db)
+    data = sent(page)
+    assert (data["left"], data["right"], data["locked"], data["silent"]) == ("l", "ow", False, [False, False])
+    assert [one["pose"] for one in data["lanes"]] == list(db.pose_set("facefx").poses)
+    row = db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"]
+    assert " ".join(f"{time:g}:{weight:g}" for time, weight in lane(page, "W")["keys"]) == row
+    assert len(page.get("bidi_component")) == 3  # the editor, the loop, the sentence
+    assert "l-ow" in page.query_params["pair"]
+
+
+def test_an_edit_is_drawn_at_once_and_saved_as_one_row(db) -> None:
+    page = curves_page(db)
+    before = lane(page, "W")["drawn"]
+    edit(page, W=PEAK)
+    assert lane(page, "W")["drawn"] != before
+    assert "Not saved yet: W." in said(page)
+    seen = db.store.revision
+    page.text_input(key="curves_note").set_value("rounder")
+    press(page, "Save")
+    assert db.store.revision == seen + 1
+    [change] = db.store.changes(seen + 1)
+    assert (change.path, change.key, change.after["keys"]) == ("curves/facefx.tsv", ("l", "ow", "W"), "0:0 0.5:0.9 1:0")
+    [revision] = db.store.history(limit=1)
+    assert (revision.author, revision.note) == ("anna", "rounder")
+    assert f"Saved l-ow: W to common as revision {seen + 1}." in said(page)
+    assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["origin"] == "authored"
+
+
+def test_the_editor_keeps_its_steps_when_a_save_changed_nothing_else(db) -> None:
+    page = edit(curves_page(db), W=PEAK)
+    token = sent(page)["id"]
+    press(page, "Save")
+    assert sent(page)["id"] == token
+    edit(page, W=[])
+    press(page, "Save")
+    assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == ""  # zero, not "no row"
+
+
+def test_back_to_the_layer_below_takes_the_row_away(db) -> None:
+    page = edit(curves_page(db), W=None)
+    press(page, "Save")
+    assert ("l", "ow", "W") not in db.records["curves/facefx.tsv"]
+    assert lane(page, "W")["keys"] is None
+    assert lane(page, "W")["below"] == lane(page, "W")["below"]
+
+
+def test_a_character_layer_leaves_everybody_else_alone(db) -> None:
+    page = curves_page(db)
+    page.session_state["curves_choice"].character = "crab"
+    page.session_state["curves_choice"].kind = "character"
+    page.run()
+    assert [one["pose"] for one in sent(page)["lanes"]] == list(db.pose_set("crab").poses)
+    before = db.animate(db.say("low"), character="robin").track.weights
+    edit(page, mouth_open=PEAK)
+    press(page, "Save")
+    assert db.records["characters/crab/curves/crab.tsv"]["l", "ow", "mouth_open"]["keys"] == "0:0 0.5:0.9 1:0"
+    assert (db.animate(db.say("low"), character="robin").track.weights == before).all()
+
+
+def test_a_pair_through_links_is_saved_whole_and_clean_afterwards(db) -> None:
+    page = curves_page(db)
+    chosen = page.session_state["curves_choice"]
+    chosen.right, chosen.character, chosen.kind = "eh", "crab", "character"
+    page.run()
+    token = sent(page)["id"]
+    edit(page, smile=PEAK)
+    press(page, "Save")
+    assert len([key for key in db.records["characters/crab/curves/crab.tsv"] if key[:2] == ("l", "eh")]) == 9
+    assert "Not saved yet" not in said(page)
+    assert sent(page)["id"] != token
+
+
+def test_a_word_gives_its_pairs_in_any_language(db) -> None:
+    page = curves_page(db)
+    page.text_input(key="curves_word").set_value("papa").run()
+    assert (sent(page)["left"], sent(page)["right"]) == ("bmp", "aa")
+    page.session_state["curves_choice"].language = "cmn"
+    page.text_input(key="curves_word").set_value("绿").run()
+    assert (sent(page)["left"], sent(page)["right"]) == ("l", "ue")
+    page.text_input(key="curves_word").set_value("low").run()
+    assert "script" in said(page) or "--language" in said(page)
+
+
+def test_silence_is_a_phone_whose_end_stays_at_rest(db) -> None:
+    page = curves_page(db)
+    page.session_state["curves_choice"].left = "_"
+    page.run()
+    assert sent(page)["silent"] == [True, False]
+    edit(page, W=[[0.0, 0.5], [1.0, 0.0]])
+    assert "begins with weight 0" in said(page)
+
+
+def test_unsaved_changes_wait_while_another_pair_is_looked_at(db) -> None:
+    page = edit(curves_page(db), W=PEAK)
+    page.session_state["curves_choice"].right = "ah"
+    page.run()
+    assert sent(page)["right"] == "ah"
+    assert "Not saved yet elsewhere: l-ow" in said(page)
+    page.session_state["curves_choice"].right = "ow"
+    page.run()
+    assert lane(page, "W")["keys"] == PEAK
+    press(page, "Discard")
+    assert lane(page, "W")["keys"] != PEAK
+
+
+def test_visitors_do_not_see_each_others_unsaved_state(db) -> None:
+    mine = edit(curves_page(db), W=PEAK)
+    theirs = curves_page(db, visitor="bob")
+    assert lane(theirs, "W")["keys"] != PEAK
+    assert lane(mine, "W")["keys"] == PEAK
+
+
+def test_copying_from_another_pair_is_a_step_that_can_be_undone(db) -> None:
+    page = curves_page(db)
+    page.selectbox(key="curves_copy_pair_facefx_l-ow").set_value("l-ih")
+    press(page, "Copy")
+    given = sent(page)["given"]
+    row = db.records["curves/facefx.tsv"]["l", "ih", "wide"]["keys"]
+    assert " ".join(f"{time:g}:{weight:g}" for time, weight in given["curves"]["wide"]) == row
+    assert lane(page, "wide")["keys"] == given["curves"]["wide"]
+    page.run()  # the browser has not answered yet
+    assert lane(page, "wide")["keys"] == given["curves"]["wide"]
+
+
+def test_a_clean_page_follows_what_others_save(db) -> None:
+    page = curves_page(db)
+    with db.edit(author="bob") as change:
+        change.put("curves/facefx.tsv", {**db.records["curves/facefx.tsv"]["l", "ow", "W"], "keys": "0:0 0.5:0.2 1:0"})
+    page.run()
+    assert lane(page, "W")["keys"] == [[0, 0], [0.5, 0.2], [1, 0]]
+
+
+def test_without_a_name_nothing_is_saved_and_the_page_says_what_to_do(db) -> None:
+    page = edit(curves_page(db, visitor=""), W=PEAK)
+    seen = db.store.revision
+    press(page, "Save")
+    assert "Give your name in the side bar" in said(page)
+    assert db.store.revision == seen
+    page.session_state["visitor"] = "anna"
+    page.run()
+    assert lane(page, "W")["keys"] == PEAK
+
+
+def test_an_address_that_names_what_there_is_not_opens_the_page_all_the_same(db) -> None:
+    page = AppTest.from_file(str(DASHBOARD / "pages" / "curves.py"), default_timeout=60)
+    for name, value in {"pair": "qq-ow", "language": "tlh", "character": "nobody", "kind": "line"}.items():
+        page.query_params[name] = value
+    page.run()
+    assert (sent(page)["left"], sent(page)["right"]) == ("l", "ow")
+
+
+@pytest.fixture
+def conflict(db):
+    """Anna edits W and open; Bob has saved W since."""
+    page = edit(curves_page(db), W=PEAK, open=PEAK)
+    with db.edit(author="bob") as change:
+        change.put("curves/facefx.tsv", {**db.records["curves/facefx.tsv"]["l", "ow", "W"], "keys": "0:0 0.5:0.2 1:0"})
+    page.run()
+    assert "Somebody else has saved this pair meanwhile" in said(page)
+    press(page, "Save")
+    assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == "0:0 0.5:0.2 1:0"
+    assert "bob changed 1 row that you changed too" in " ".join(element.value for element in page.markdown)
+    return page
+
+
+@pytest.mark.parametrize(
+    ("choice", "rounding"), [("Save mine over theirs", "0:0 0.5:0.9 1:0"), ("Keep theirs", "0:0 0.5:0.2 1:0")]
+)  # fmt: skip
+def test_the_second_to_save_sees_both_versions_and_chooses(db, conflict, choice, rounding) -> None:
+    press(conflict, choice)
+    rows = db.records["curves/facefx.tsv"]
+    assert (rows["l", "ow", "W"]["keys"], rows["l", "ow", "open"]["keys"]) == (rounding, "0:0 0.5:0.9 1:0")
+    conflict.run()
+    assert "Not saved yet" not in said(conflict)
+    assert [one.author for one in db.store.history("curves/facefx.tsv", ("l", "ow", "W"), limit=2)][-1] in ("bob", "lipdb")
+
+
+def test_whoever_goes_on_editing_keeps_everything_and_may_save_later(db, conflict) -> None:
+    seen = db.store.revision
+    press(conflict, "Go on editing")
+    conflict.run()
+    assert db.store.revision == seen
+    assert lane(conflict, "W")["keys"] == PEAK
+    press(conflict, "Save")
+    assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == "0:0 0.5:0.9 1:0"
