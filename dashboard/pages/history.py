@@ -7,6 +7,7 @@ from pathlib import Path
 import streamlit as st
 from parts.compare import draw_versions
 from parts.lines import state
+from parts.pairs import OPEN
 from parts.session import database, shown_errors, undo, visitor
 
 from lipdb.curves.changed import ChangedPair, changed_pairs
@@ -119,18 +120,21 @@ def show_curves(one: Revision, pairs: list[ChangedPair], wanted: Wanted) -> None
     left, right = st.columns([2, 3], vertical_alignment="bottom")
     chosen = left.selectbox("Pair", range(len(names)), format_func=names.__getitem__, key=f"history_pair_of_{one.number}")
     pair = pairs[chosen]
-    place = {"pair": pair.pair, "language": pair.language, "character": pair.character}
-    right.page_link(
-        str(Path(__file__).parent / "curves.py"),
-        label=f"Open {pair.pair} in Curves",
-        icon=":material/timeline:",
-        query_params={name: value for name, value in place.items() if value},
-    )
+    if right.button(f"Open {pair.pair} in Curves", icon=":material/timeline:", key=f"history_open_{one.number}"):
+        open_in_curves(pair)
     if pair.inherits:
         st.caption("Where this layer has no curve of its own, the one is drawn that it takes from the layers below.")
         draw_versions(pair.filled(state(one.number - 1).records, state(one.number).records), "before", "after")
     else:
         draw_versions({pose: (before, after) for pose, (before, after) in pair.poses.items() if before and after}, "before", "after")
+
+
+def open_in_curves(pair: ChangedPair) -> None:
+    """Go to the pair in the page Curves, at the layer in which it changed."""
+    place = {"language": pair.language, "character": pair.character, "kind": pair.layer.partition(":")[0]}
+    place = {name: value for name, value in place.items() if value}
+    st.session_state[OPEN] = {"left": pair.left, "right": pair.right, "word": "", **place}
+    st.switch_page(str(Path(__file__).parent / "curves.py"), query_params={"pair": pair.pair, **place})
 
 
 def show_rows(changes: list[Change]) -> None:
