@@ -82,23 +82,25 @@ def _recording(language: str) -> Line | None:
     suffixes = sorted({*plugins.readers(), ".json"})
     aligned = left.file_uploader(f"Aligned phones ({' '.join(suffixes)})", type=[suffix[1:] for suffix in suffixes], key="say_grid")
     audio = right.file_uploader("Recording (.wav)", type=["wav"], key="say_wav")
+    guess = left.checkbox("Map unknown symbols by articulation", key="say_guess", help="Otherwise the line stops at the first one.")
     if aligned is None:
         return None
     suffix = Path(aligned.name).suffix.lower()
-    return recorded(aligned.getvalue(), suffix, audio.getvalue() if audio else None, language, database().store.revision)
+    sound = audio.getvalue() if audio else None
+    return recorded(aligned.getvalue(), suffix, sound, language, database().store.revision, allow_unknown=guess)
 
 
 def look_inside(line: Line, character: str) -> None:
     """The stages of the engine, one colour a stage."""
     made = database().stages(line, character=character)
-    left, middle, right = st.columns([2, 5, 3])
+    left, right = st.columns([1, 3])
     poses = list(made.poses)
     pose = left.selectbox("Pose", ["all", *poses], index=1 + poses.index("open") if "open" in poses else 0, key="say_pose")
-    shown = middle.pills("Stages", list(STAGE_COLOURS), default=list(STAGE_COLOURS), selection_mode="multi", key="say_stages")
+    shown = right.pills("Stages", list(STAGE_COLOURS), default=list(STAGE_COLOURS), selection_mode="multi", key="say_stages")
     seconds = len(made.track.weights) / made.track.fps
     window = (0.0, seconds)
     if seconds > LONG:
-        window = right.slider("Seconds", 0.0, round(seconds, 1), (0.0, LONG), key="say_window")
+        window = st.slider("Seconds", 0.0, round(seconds, 1), (0.0, LONG), key="say_window")
     if not shown:
         st.info("Choose a stage to see it.")
         return

@@ -41,9 +41,9 @@ def _row(cause: Cause) -> dict[str, Any] | None:
     return {
         "pose": cause.pose,
         "weight": weight,
-        "pairs, and the weight of each one's curve": " · ".join(drawn),
-        "the larger one comes from": f"{best.where}, {best.curve.origin}" if best else "",
-        "changed most by": cause.stage or "nothing: as drawn",
+        "pairs and their curves": " · ".join(drawn),
+        "the larger one is": f"{best.where}, {best.curve.origin}" if best else "",
+        "changed by": cause.stage or "nothing",
         "gives way to": ", ".join(cause.yields_to),
     }
 

@@ -61,19 +61,24 @@ def key_of(line: Line) -> str:
 
 
 @st.cache_resource(max_entries=8, ttl=3600, show_spinner=False)
-def recorded(aligned: bytes, suffix: str, audio: bytes | None, language: str, revision: int) -> Line:  # noqa: ARG001
+def recorded(
+    aligned: bytes,
+    suffix: str,
+    audio: bytes | None,
+    language: str,
+    revision: int,  # noqa: ARG001  (it decides)
+    *,
+    allow_unknown: bool = False,
+) -> Line:
     """The line in an uploaded file that was aligned already, with its sound. Raises `LipdbError`."""
     if max(len(aligned), len(audio or b"")) > LARGEST:
         raise InputError(f"a file is larger than {LARGEST // 1_000_000} MB; cut the recording into shorter ones")
     with tempfile.TemporaryDirectory(prefix="lipdb-") as folder:
-        file = Path(folder) / f"upload{suffix}"
+        file, sound = Path(folder) / f"upload{suffix}", Path(folder) / "upload.wav"
         file.write_bytes(aligned)
-        sound = None
-        if audio is not None:
-            sound = Path(folder) / "upload.wav"
-            sound.write_bytes(audio)
+        sound.write_bytes(audio or b"")
         try:
-            return database().sync(file, audio=sound, language=language)
+            return database().sync(file, audio=None if audio is None else sound, language=language, allow_unknown=allow_unknown)
         except InputError as error:
             # The visitor's own words, not the places of the copies.
             told = str(error).replace(str(file), "the aligned file").replace(str(sound), "the recording")

@@ -23,6 +23,8 @@ STAGE_COLOURS = {
     "limited": "#d55e00",
     "final": "#0072b2",
 }
+GREY = "#8a8a8a"
+"""Can be read on light and on dark pages."""
 STRAIGHT = 1e-4
 """A point that is nearer than this to the line between its neighbours is not sent to the browser."""
 
@@ -62,10 +64,10 @@ def _phones(schedule: Schedule, window: tuple[float, float], *, named: bool) -> 
     seconds = np.array(edges) / 1e6
     borders = pd.DataFrame({"start": seconds[:-1], "seconds": (seconds[:-1] + seconds[1:]) / 2, "wide": np.diff(seconds), "phone": names})
     seen = borders[(borders.start < window[1]) & (borders.start >= window[0])]
-    charts = [alt.Chart(seen).mark_rule(opacity=0.2).encode(x=alt.X("start:Q", title="seconds"))]
+    charts = [alt.Chart(seen).mark_rule(opacity=0.3, color=GREY).encode(x=alt.X("start:Q", title="seconds"))]
     if named:
         roomy = seen[seen.wide > 0.008 * (window[1] - window[0])]
-        text = alt.Chart(roomy).mark_text(baseline="top", dy=2, fontSize=11)
+        text = alt.Chart(roomy).mark_text(baseline="top", dy=2, fontSize=11, color=GREY)
         charts.append(text.encode(x="seconds:Q", y=alt.value(0), text="phone:N"))
     return charts
 

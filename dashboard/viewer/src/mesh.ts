@@ -19,6 +19,8 @@ const FIELD = 24;
 
 /** How much more than what moves is shown. */
 const ROOM = 0.66;
+/** How much taller than wide a head is. */
+const SLIM = 1.15;
 const MIRRORED = 64; // pixels of each side of the room that faces mirror; skin shows no more
 const REST = 500; // milliseconds of standing still after which a coarse picture is drawn once more, sharp
 
@@ -157,7 +159,7 @@ export class MeshView {
   look(angles: number[]): void {
     this.angles = angles;
     const tall = (FIELD / 2) * (Math.PI / 180);
-    const wide = Math.atan(Math.tan(tall) * Math.min(this.aspect, 1)); // a narrow picture is as far away as it takes
+    const wide = Math.atan(Math.tan(tall) * Math.min(this.aspect * SLIM, 1)); // as far away as a narrow picture needs
     const distance = (this.radius / Math.sin(wide)) * 0.86;
     this.cameras.forEach((camera, k) => {
       const angle = ((angles[k] ?? 0) * Math.PI) / 180;
