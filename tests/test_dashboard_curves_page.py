@@ -263,3 +263,12 @@ def test_whoever_goes_on_editing_keeps_everything_and_may_save_later(db, conflic
     assert lane(conflict, "W")["keys"] == PEAK
     press(conflict, "Save")
     assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == "0:0 0.5:0.9 1:0"
+
+
+def test_a_viewer_may_look_and_not_change(db) -> None:
+    page = AppTest.from_file(str(DASHBOARD / "pages" / "curves.py"), default_timeout=60)
+    page.secrets = {"auth": {"client_id": "test"}, "lipdb": {"editors": ["anna@example.org"]}}
+    page.user = {"is_logged_in": True, "email": "visitor@example.org"}
+    page.run()
+    assert sent(page)["locked"]
+    assert not [button for button in page.button if button.label in ("Save", "Copy", "Discard")]

@@ -1,0 +1,179 @@
+"""The page Curves in a real browser: drag a key, save, find it, undo it; two people and one curve; one character alone."""
+
+import json
+import re
+
+import pytest
+from browser import PATIENCE, settled
+
+import lipdb
+
+
+def open_curves(app, page, *, name: str, pair: str = "l-ow", character: str = "robin", kind: str = "common") -> None:
+    """Load the page anew, say who one is, and let the face rest: software draws it here."""
+    page.goto(f"{app.url}/curves?pair={pair}&language=en&character={character}&kind={kind}")
+    page.locator(".keys .lane").first.wait_for()
+    page.locator(".stage .play").first.wait_for()
+    page.evaluate("document.querySelectorAll('.stage').forEach(stage => stage.lipdb?.clock.pause())")
+    field = page.get_by_role("textbox", name="Your name")
+    field.fill(name)
+    field.press("Enter")
+    settled(page)
+
+
+def lane(page, pose: str):
+    return page.locator(f'.keys .lane[data-pose="{pose}"]')
+
+
+def keys_of(page, pose: str) -> list[tuple[float, float]]:
+    texts = lane(page, pose).locator(".key").evaluate_all("all => all.map(one => one.getAttribute('aria-valuetext'))")
+    return [tuple(float(number) for number in re.findall(r"[\d.]+", text)) for text in texts]
+
+
+def drag(page, pose: str, key: int, *, up: float, free: bool = False) -> None:
+    """Drag one key *up* pixels."""
+    box = lane(page, pose).locator(".key").nth(key).bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    if free:
+        page.keyboard.down("Alt")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x, y - up, steps=3)
+    page.mouse.up()
+    if free:
+        page.keyboard.up("Alt")
+
+
+def save(page, note: str = "") -> None:
+    page.get_by_text("Not saved yet:").wait_for()
+    if note:
+        page.get_by_label("Note for the history").fill(note)
+    page.get_by_role("button", name="Save", exact=True).click()
+
+
+def stored(app, *key: str, table: str = "curves/facefx.tsv") -> str:
+    with lipdb.open(str(app.database)) as db:
+        row = db.records.get(table, {}).get(key)
+        return row["keys"] if row else "-"
+
+
+def said(app, folder, character: str = "robin") -> str:
+    """The track that `lipdb say` gives for "low"."""
+    file = folder / "low.csv"
+    app.lipdb("say", "low", "--character", character, "-o", str(file))
+    return file.read_text()
+
+
+@pytest.fixture(scope="module")
+def curves(app, page):
+    open_curves(app, page, name="anna")
+    return page
+
+
+def test_a_dragged_key_is_drawn_saved_found_and_undone(app, curves, tmp_path) -> None:
+    before, plain = stored(app, "l", "ow", "W"), said(app, tmp_path)
+    old = keys_of(curves, "W")
+    drawn = lane(curves, "W").locator(".drawn").get_attribute("points")
+    drag(curves, "W", 1, up=14)
+    new = keys_of(curves, "W")
+    assert new[1][1] > old[1][1] + 0.2
+    assert [key for k, key in enumerate(new) if k != 1] == [key for k, key in enumerate(old) if k != 1]
+    assert new[1][1] * 20 == pytest.approx(round(new[1][1] * 20))  # on the grid
+    curves.wait_for_function(
+        "([pose, old]) => document.querySelector(`.keys .lane[data-pose=${pose}] .drawn`)?.getAttribute('points') !== old", arg=["W", drawn]
+    )
+    save(curves, "rounder lips")
+    curves.get_by_text("Saved l-ow: W to common").wait_for()
+
+    after = stored(app, "l", "ow", "W")
+    assert after.split()[1] == f"{new[1][0]:g}:{new[1][1]:g}"
+    assert said(app, tmp_path) != plain
+    listed = json.loads(app.lipdb("db", "history", "curves/facefx.tsv", "l", "ow", "W", "--json"))
+    assert (listed[0]["author"], listed[0]["note"]) == ("anna", "rounder lips")
+
+    open_curves(app, curves, name="anna")
+    assert keys_of(curves, "W") == new
+
+    app.lipdb("db", "undo", str(listed[0]["revision"]))
+    assert stored(app, "l", "ow", "W") == before
+    assert said(app, tmp_path) == plain
+    open_curves(app, curves, name="anna")
+    assert keys_of(curves, "W") == old
+
+
+def test_keys_are_added_taken_away_undone_and_done_again(curves) -> None:
+    old = keys_of(curves, "wide")
+    box = lane(curves, "wide").locator(".plot").bounding_box()
+    curves.mouse.dblclick(box["x"] + box["width"] * 0.4, box["y"] + 8)
+    added = keys_of(curves, "wide")
+    assert len(added) == len(old) + 1
+    curves.get_by_text("Not saved yet: wide.").wait_for()
+    lane(curves, "wide").locator(".key").nth(added.index((set(added) - set(old)).pop())).focus()
+    curves.keyboard.press("ArrowDown")
+    nudged = keys_of(curves, "wide")
+    assert nudged != added
+    curves.keyboard.press("Delete")
+    assert keys_of(curves, "wide") == old
+    for expected in (nudged, added, old):
+        curves.keyboard.press("Control+z")
+        assert keys_of(curves, "wide") == expected
+    curves.keyboard.press("Control+y")
+    assert keys_of(curves, "wide") == added
+    curves.locator(".keys").get_by_role("button", name="Undo").click()
+    assert keys_of(curves, "wide") == old
+    # A lane at zero gets three keys at once; "reset" leaves it to the layer below.
+    box = lane(curves, "tBack").locator(".plot").bounding_box()
+    curves.mouse.dblclick(box["x"] + box["width"] / 2, box["y"] + 8)
+    assert len(keys_of(curves, "tBack")) == 3
+    lane(curves, "tBack").locator(".reset").click()
+    assert keys_of(curves, "tBack") == []
+    curves.keyboard.press("Control+z")
+    curves.keyboard.press("Control+z")
+    curves.get_by_text("Not saved yet").wait_for(state="hidden")
+
+
+def test_the_loop_plays_the_edited_pair(app, curves) -> None:
+    loop = curves.locator(".stage").first
+    state = loop.evaluate("stage => [stage.lipdb.clock.loop, stage.lipdb.clock.duration]")
+    assert state[0] == pytest.approx([0, state[1]], abs=0.02)
+    loop.evaluate("stage => stage.lipdb.clock.seek(0.47)")
+    curves.wait_for_function("() => Math.abs(document.querySelector('.stage').lipdb.state.time - 0.47) < 1e-3")
+    before = loop.evaluate("stage => stage.lipdb.state.poses.W")
+    drag(curves, "W", 1, up=16)
+    curves.wait_for_function("before => document.querySelector('.stage').lipdb.state.poses.W > before + 0.1", arg=before)
+    curves.get_by_role("button", name="Discard").click()
+    curves.wait_for_function("before => Math.abs(document.querySelector('.stage').lipdb.state.poses.W - before) < 1e-6", arg=before)
+
+
+def test_two_people_and_one_curve(app, chromium, curves) -> None:
+    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
+    context.set_default_timeout(PATIENCE)
+    bob = context.new_page()
+    open_curves(app, bob, name="bob", pair="l-ih")
+    open_curves(app, curves, name="anna", pair="l-ih")
+    drag(bob, "wide", 1, up=-6, free=True)
+    save(bob)
+    bob.get_by_text("Saved l-ih: wide to common").wait_for()
+    theirs = stored(app, "l", "ih", "wide")
+    drag(curves, "wide", 1, up=10, free=True)
+    save(curves)
+    dialog = curves.get_by_test_id("stDialog")
+    dialog.get_by_text("bob changed 1 row that you changed too").wait_for()
+    dialog.locator("svg, canvas").first.wait_for()
+    assert stored(app, "l", "ih", "wide") == theirs
+    dialog.get_by_role("button", name="Save mine over theirs").click()
+    curves.get_by_text("Saved l-ih: wide to common").wait_for()
+    assert stored(app, "l", "ih", "wide").split()[1] == "{:g}:{:g}".format(*keys_of(curves, "wide")[1])
+    authors = [one["author"] for one in json.loads(app.lipdb("db", "history", "curves/facefx.tsv", "l", "ih", "wide", "--json"))]
+    assert authors[:2] == ["anna", "bob"]
+    context.close()
+
+
+def test_the_crab_alone(app, curves, tmp_path) -> None:
+    human, crab = said(app, tmp_path), said(app, tmp_path, "crab")
+    open_curves(app, curves, name="anna", character="crab", kind="character")
+    drag(curves, "mouth_open", 1, up=-12, free=True)
+    save(curves)
+    curves.get_by_text("Saved l-ow: mouth_open to character:crab").wait_for()
+    assert said(app, tmp_path) == human
+    assert said(app, tmp_path, "crab") != crab
