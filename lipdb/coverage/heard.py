@@ -57,23 +57,23 @@ class Evidence:
     def context(self, pauses_before: Sequence[str], flows_after: Sequence[str]) -> Context:
         """What is to be believed."""
         rules = Context(heads=_rules(self.first), tails=_rules(self.last))
+        ruled = {label for label, _, _ in rules.heads}, {label for label, _, _ in rules.tails}
         readings = [
             (word, place, reading)
             for word, alone in self.alone.items()
-            for place, reading in self._places(word, alone, rules)
+            for place, reading in self._places(word, alone, rules, ruled)
             if reading != rules.usual(" ".join(alone), place)
         ]
         return Context(tuple(sorted(readings)), rules.heads, rules.tails, tuple(sorted(pauses_before)), tuple(sorted(flows_after)))
 
-    def _places(self, word: str, alone: Sequence[str], rules: Context) -> Iterator[tuple[int, str]]:
+    def _places(self, word: str, alone: Sequence[str], rules: Context, ruled: tuple[set[str], set[str]]) -> Iterator[tuple[int, str]]:
         """How *word* is read at every place: as it was heard there, else by the rules, else as it was heard elsewhere."""
-        ruled_heads, ruled_tails = {label for label, _, _ in rules.heads}, {label for label, _, _ in rules.tails}
         for place in range(PLACES):
             before, behind = divmod(place, KINDS)
             usual = rules.usual(" ".join(alone), place).split(" ")
             head, rest = ([], usual) if len(alone) < 2 else (usual[:1], usual[1:])
-            heads = _believed(self.heads, word, before, elsewhere=alone[0] not in ruled_heads) if head else None
-            rests = _believed(self.rests, word, behind, elsewhere=alone[-1] not in ruled_tails)
+            heads = _believed(self.heads, word, before, elsewhere=alone[0] not in ruled[0]) if head else None
+            rests = _believed(self.rests, word, behind, elsewhere=alone[-1] not in ruled[1])
             yield place, " ".join([*(head if heads is None else heads), *(rest if rests is None else rests)])
 
 

@@ -44,8 +44,10 @@ def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
 
 def join_files(folder: Path) -> None:
     """Make one file of many, so that those who open the lexicon need not."""
+    if len(_files(folder)) <= _MANY:
+        return
     found = _tables(folder)
-    if len(found) > _MANY and _write(_once([table for _, table in found]), folder):
+    if _write(_once([table for _, table in found]), folder):
         for file, _ in found:
             file.unlink(missing_ok=True)
 
@@ -59,13 +61,16 @@ def keep(lexicon: Lexicon, folder: Path | None) -> None:
     lexicon.asked = ANSWERS.empty_table()
 
 
-def _tables(folder: Path) -> list[tuple[Path, pa.Table]]:
-    """The files of *folder* that can be read, and what is in them."""
+def _files(folder: Path) -> list[Path]:
     try:
-        files = sorted(folder.glob(f"[!.]*{_SUFFIX}"))
+        return sorted(folder.glob(f"[!.]*{_SUFFIX}"))
     except OSError:
         return []
-    return [(file, table) for file in files if (table := _read(file)) is not None]
+
+
+def _tables(folder: Path) -> list[tuple[Path, pa.Table]]:
+    """The files of *folder* that can be read, and what is in them."""
+    return [(file, table) for file in _files(folder) if (table := _read(file)) is not None]
 
 
 def _once(tables: list[pa.Table]) -> pa.Table:
@@ -79,7 +84,8 @@ def _once(tables: list[pa.Table]) -> pa.Table:
 
 def _read(file: Path) -> pa.Table | None:
     try:
-        table = pq.read_table(file)
+        with pq.ParquetFile(file) as opened:  # pq.read_table would load pandas
+            table = opened.read()
     except (OSError, ValueError):  # Another process joined it with others, or it is damaged.
         return None
     return table.replace_schema_metadata() if table.schema.equals(ANSWERS) else None
