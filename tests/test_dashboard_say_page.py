@@ -1,0 +1,173 @@
+"""The front page without a browser: what is asked, what is shown, what is said when something is wrong."""
+
+import io
+import os
+import wave
+from pathlib import Path
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+DASHBOARD = Path(__file__).resolve().parents[1] / "dashboard"
+PATIENCE = 60
+
+
+@pytest.fixture(scope="module")
+def start(tmp_path_factory):
+    """Opens the page as a new visitor of one database."""
+    import streamlit as st
+
+    with pytest.MonkeyPatch.context() as patch:
+        folder = tmp_path_factory.mktemp("say")
+        patch.syspath_prepend(str(DASHBOARD))
+        patch.setenv("LIPDB_URL", str(folder / "lipdb.db"))
+        patch.setenv("LIPDB_CACHE", str(folder / "cache"))
+        patch.setenv("LIPDB_HOME", str(folder / "home"))
+        st.cache_resource.clear()
+        yield lambda: AppTest.from_file(str(DASHBOARD / "pages" / "say.py"), default_timeout=PATIENCE).run()
+        st.cache_resource.clear()
+
+
+@pytest.fixture
+def page(start):
+    return start()
+
+
+def messages(page) -> list[str]:
+    assert not page.exception, page.exception[0].message
+    return [*(error.value for error in page.error), *(info.value for info in page.info)]
+
+
+def players(page) -> int:
+    return len(page.get("bidi_component"))
+
+
+def test_the_page_opens_with_a_sentence_to_hear(page) -> None:
+    assert messages(page) == []
+    assert page.text_input[0].value == "Hello! Bob may find five blue whales."
+    assert players(page) == 1
+
+
+def test_each_language_has_an_example_and_voices_of_its_own(page) -> None:
+    languages = page.selectbox(key="say_language").options
+    assert {"English", "Mandarin Chinese"} <= set(languages)
+    page.selectbox(key="say_language").set_value("cmn").run()
+    assert messages(page) == []
+    assert any("一" <= letter <= "鿿" for letter in page.text_input[0].value)
+    assert page.selectbox(key="say_voice_cmn").options[:2] == ["cmn-latn-pinyin", "cmn-latn-pinyin, f2"]
+
+
+def test_without_a_sentence_the_page_says_what_to_do(page) -> None:
+    page.text_input[0].set_value(" ").run()
+    assert [message.split(",")[0] for message in messages(page)] == ["Write a sentence"]
+    assert players(page) == 0
+
+
+def test_text_in_another_language_is_answered_with_what_to_do(page) -> None:
+    page.text_input[0].set_value("你好").run()
+    (message,) = messages(page)
+    assert "language" in message
+    page.text_input[0].set_value("Hello").run()
+    assert messages(page) == []
+
+
+def test_markup_in_a_sentence_is_no_markup(page) -> None:
+    page.text_input[0].set_value("<b>Bob</b> **may** :red[go] <script>alert(1)</script>").run()
+    assert not page.exception
+
+
+def test_the_stages_come_when_they_are_asked_for(page) -> None:
+    assert not page.get("vega_lite_chart")
+    page.session_state["say_tab"] = "Stages of the engine"
+    page.run()
+    assert messages(page) == []
+    assert len(page.get("vega_lite_chart")) == 1
+    page.selectbox(key="say_pose").set_value("all").run()
+    assert messages(page) == []
+
+
+def test_a_mesh_format_of_a_flat_mouth_is_answered_in_a_line(page) -> None:
+    page.session_state["say_tab"] = "Download"
+    page.selectbox(key="say_character").set_value("flat").run()
+    page.selectbox(key="say_format").set_value(".glb").run()
+    assert messages(page) == ["character 'flat' has pictures and no mesh; write .tsv or .mp4 instead of .glb"]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".cues.json", ".wav", ".tsv"])
+def test_a_format_can_be_downloaded(page, suffix) -> None:
+    page.session_state["say_tab"] = "Download"
+    page.run()
+    page.selectbox(key="say_format").set_value(suffix).run()
+    assert messages(page) == []
+    assert [button.proto.label for button in page.get("download_button")] == [f"Download line{suffix}"]
+
+
+def test_a_film_is_made_on_request(page) -> None:
+    page.session_state["say_tab"] = "Download"
+    page.selectbox(key="say_character").set_value("flat").run()
+    page.text_input[0].set_value("Bob").run()
+    page.selectbox(key="say_format").set_value(".mp4").run()
+    assert not page.get("download_button")
+    page.button(key="say_draw").click().run()
+    assert messages(page) == []
+    assert [button.proto.label for button in page.get("download_button")] == ["Download line.mp4"]
+
+
+def grid(phone: str = "m") -> bytes:
+    lines = ['File type = "ooTextFile"', 'Object class = "TextGrid"', "", "0", "1", "<exists>", "1", '"IntervalTier"', '"phones"']
+    return "\n".join([*lines, "0", "1", "2", "0", "0.5", f'"{phone}"', "0.5", "1", '"A"', ""]).encode()
+
+
+def sound() -> bytes:
+    with io.BytesIO() as buffer:
+        with wave.open(buffer, "wb") as file:
+            file.setnchannels(1)
+            file.setsampwidth(2)
+            file.setframerate(16_000)
+            file.writeframes(bytes(32_000))
+        return buffer.getvalue()
+
+
+def test_a_recording_with_its_phones_is_read(start) -> None:
+    from parts.lines import recorded
+
+    line = recorded(grid(), ".textgrid", sound(), "en", 1)
+    assert [phone.common for phone in line.schedule.phones] == [("bmp",), ("aa",)]
+    assert line.sound.duration == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("aligned", "suffix", "audio", "answer"),
+    [
+        (b"milk, eggs", ".textgrid", None, "the aligned file: not a Praat text file"),
+        (os.urandom(3000) + b"\0", ".textgrid", None, "the aligned file: "),
+        (b"", ".textgrid", None, "the aligned file: the file is empty"),
+        (grid()[:70], ".textgrid", None, "the aligned file: "),
+        (b"[1, 2", ".json", None, "the aligned file: not JSON"),
+        (b'{"format": "lipdb line 1"}', ".json", None, "not a schedule"),
+        (grid(), ".textgrid", b"RIFF, says who?", "the recording: not a PCM wave file"),
+        (grid(), ".textgrid", b"", "the recording: not a PCM wave file"),
+        (grid("QQQ"), ".textgrid", None, "unknown symbol"),
+        (b"x" * 40_000_000, ".textgrid", None, "larger than 20 MB"),
+        (grid(), ".textgrid", b"x" * 40_000_000, "larger than 20 MB"),
+    ],
+    ids=["text", "noise", "empty", "cut", "json", "no schedule", "no wave", "empty wave", "unknown", "large", "large wave"],
+)
+def test_an_upload_that_is_not_what_it_seems_is_answered_in_a_line(start, aligned, suffix, audio, answer) -> None:
+    from parts.lines import recorded
+
+    from lipdb.errors import InputError
+
+    with pytest.raises(InputError, match=answer) as caught:
+        recorded(aligned, suffix, audio, "en", 1)
+    told = str(caught.value)
+    assert "\n" not in told
+    assert "/tmp" not in told
+    assert "upload" not in told
+
+
+def test_unknown_symbols_can_be_mapped_by_articulation(start) -> None:
+    from parts.lines import recorded
+
+    line = recorded(grid("QQQ"), ".textgrid", None, "en", 1, allow_unknown=True)
+    assert "QQQ" in line.notes[0]
