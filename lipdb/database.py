@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from lipdb.characters.add import Added
     from lipdb.characters.character import Character
-    from lipdb.curated.tsv import Records, Row
+    from lipdb.curated.tsv import Key, Records, Row
     from lipdb.curves.curve import Curve, CurveKey
     from lipdb.curves.lookup import CurveBook
     from lipdb.engine import Stages
@@ -89,6 +89,24 @@ class Database:
     def read_only(self) -> Database:
         """The same database for those who may only look: every way to change it raises `StoreError`."""
         return Database(self.store.read_only(), revision=self._revision)
+
+    def supposing(self, rows: Mapping[tuple[str, Key], Row | None]) -> Database:
+        """The same database as if *rows*, by table and key, stood in it (None: did not), to look at and to play.
+
+        Nothing is saved. Rows are taken as they are given.
+        """
+        records = dict(self.records)
+        for (table, key), row in rows.items():
+            changed = {**records.get(table, {})}
+            if row is None:
+                changed.pop(key, None)
+            else:
+                changed[key] = row
+            records[table] = changed
+        revision = self._records[0] if self._records else 0
+        trial = Database(self.store.read_only(), revision=revision)
+        trial._records = revision, records
+        return trial
 
     def edit(self, *, author: str, note: str = "") -> AbstractContextManager[Edit]:
         """One transaction of edits: `put` and `delete` rows inside the block. See `lipdb.store`."""

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import tempfile
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lipdb.characters.character import MESH_FILE, NAME, PICTURE_SUFFIXES, PICTURES, picture_files
+from lipdb.characters.character import MESH_FILE, NAME, PICTURES
 from lipdb.characters.gltf_read import read_glb
 from lipdb.characters.gltf_write import write_glb
 from lipdb.characters.match import SHARED, Match, match
 from lipdb.characters.obj_read import read_objects
-from lipdb.errors import InputError, MeshError, OutputError
+from lipdb.characters.pictures import copy_pictures, picture_files
+from lipdb.errors import InputError, OutputError
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
 
 BINARY = (".glb", ".vrm")
-PICTURE_NAME = re.compile(r"\w[\w-]{0,59}")
 SOURCE = "user"
 
 
@@ -139,21 +137,8 @@ def _copy(path: Path, place: Path, name: str) -> tuple[str, tuple[str, ...]]:
         write_glb(place / MESH_FILE, mesh)
         return MESH_FILE, mesh.shape_names
     if path.is_dir():
-        return PICTURES, _copy_pictures(picture_files(path), place / PICTURES)
+        return PICTURES, copy_pictures(picture_files(path), place / PICTURES)
     raise InputError(f"{path}: give a .glb, .vrm or .gltf file, a folder of OBJ files, or a folder of SVG or PNG pictures")
-
-
-def _copy_pictures(files: Mapping[str, Path], place: Path) -> tuple[str, ...]:
-    from lipdb.render.flat import read_picture
-
-    place.mkdir()
-    for shape, file in files.items():
-        if not PICTURE_NAME.fullmatch(shape):
-            raise MeshError(f"{file}: name pictures after their shapes with letters, digits, _ and -")
-        read_picture(file, 64, 64)
-        suffix = next(kind for kind in PICTURE_SUFFIXES if kind == file.suffix.lower())
-        _copy_file(file, place / f"{shape}{suffix}")
-    return tuple(files)
 
 
 def _copy_file(source: Path, target: Path) -> None:

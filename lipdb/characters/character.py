@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from lipdb.characters.links import closing_shapes, identity_links, through_links
+from lipdb.characters.pictures import picture_files
 from lipdb.curves.through import Link, link_from_row
 from lipdb.errors import InputError, MeshError, PhonesetError
 from lipdb.paths import data_dir
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 BUILT = "built:"
 MESH_FILE, PICTURES = "mesh.glb", "pictures"
-PICTURE_SUFFIXES = (".svg", ".png")
 NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
 
@@ -74,9 +74,8 @@ class Character:
         if self.drawing.startswith(BUILT):
             return built_mesh(self.drawing.removeprefix(BUILT))
         if self.drawing == MESH_FILE:
-            from lipdb.characters.gltf_read import read_glb
-
-            return read_glb(self._own(MESH_FILE), name=self.name)
+            file = self._own(MESH_FILE)
+            return _read_mesh(file, self.name, file.stat().st_mtime_ns)
         return None
 
     @cached_property
@@ -110,6 +109,14 @@ def _links(records: Records, row: Row, poses: tuple[str, ...]) -> tuple[Link, ..
     return tuple(sorted(kept, key=lambda link: (poses.index(link.pose) if link.pose in poses else len(poses), link.shape)))
 
 
+@lru_cache(maxsize=8)
+def _read_mesh(file: Path, name: str, _changed: int) -> Mesh:
+    """The mesh in *file*, read again when the file has changed."""
+    from lipdb.characters.gltf_read import read_glb
+
+    return read_glb(file, name=name)
+
+
 def built_mesh(name: str) -> Mesh | None:
     """The mesh of a character that comes with lipdb; None for the flat mouth. Raises `MeshError` for another name."""
     from lipdb.characters.crab import crab
@@ -119,12 +126,3 @@ def built_mesh(name: str) -> Mesh | None:
     if name not in built:
         raise MeshError(f"drawing built:{name}: no such face comes with lipdb; there are {', '.join(sorted(built))}")
     return built[name]()
-
-
-def picture_files(folder: Path) -> dict[str, Path]:
-    """Shape to picture: every SVG and PNG of *folder*, named as its shape. Raises `MeshError` when there are none."""
-    files = sorted(folder.iterdir()) if folder.is_dir() else []
-    pictures = {file.stem: file for file in files if file.suffix.lower() in PICTURE_SUFFIXES and file.is_file()}
-    if not pictures:
-        raise MeshError(f"{folder}: no SVG or PNG pictures in it; name each after its shape, such as A.svg")
-    return pictures

@@ -1,0 +1,109 @@
+"""A character's links as a person edits them: which come from the shared table, which are its own, and what saving writes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from lipdb.characters.links import identity_links
+from lipdb.curated.schema import table_of
+from lipdb.curated.tsv import Key, Records, Row, canonical_row
+from lipdb.errors import InputError
+from lipdb.poses import PoseSet
+
+VALUES = ("gain", "combine", "curve")
+DOUBTFUL = "doubtful"
+SOURCE = "user"
+
+
+@dataclass(frozen=True, slots=True)
+class OwnLink:
+    """One link: its *row*, and the shared row that it stands in place of, if there is one."""
+
+    row: Row
+    own: bool
+    shared: Row | None
+
+    @property
+    def doubtful(self) -> bool:
+        """Whether the shape was matched by a name that is only alike."""
+        return self.row["comment"].endswith(DOUBTFUL)
+
+
+def own_table(name: str) -> str:
+    """The table of the links of the character *name*."""
+    return f"characters/{name}/links.tsv"
+
+
+def shared_links(records: Records, character: Row) -> dict[Key, Row]:
+    """The links that *character* (its row) takes from the pose set or from ``links/``."""
+    pose_set, shapes = character["pose_set"], character["shapes"]
+    if shapes != pose_set:
+        return dict(records.get(f"links/{pose_set}/{shapes}.tsv", {})) if shapes else {}
+    poses = PoseSet.from_records(records, pose_set).poses
+    return {(link.pose, link.shape): {**link.to_row(), "source": "lipdb", "comment": ""} for link in identity_links(poses)}
+
+
+def links_of(records: Records, name: str) -> list[OwnLink]:
+    """The links of the character *name* that move something, in the order of its poses."""
+    character = records[f"characters/{name}/character.tsv"][name,]
+    shared, own = shared_links(records, character), records.get(own_table(name), {})
+    poses = PoseSet.from_records(records, character["pose_set"]).poses
+    rows = {**{key: OwnLink(row, False, None) for key, row in shared.items()}}
+    rows |= {key: OwnLink(row, True, shared.get(key)) for key, row in own.items()}
+    kept = [link for link in rows.values() if float(link.row["gain"])]
+    return sorted(kept, key=lambda link: (poses.index(link.row["pose"]) if link.row["pose"] in poses else len(poses), link.row["shape"]))
+
+
+def link_rows(records: Records, name: str, wanted: Sequence[Mapping[str, str]]) -> dict[Key, Row | None]:
+    """What saving the links *wanted* writes into the character's own table: rows to put, None for rows to take away.
+
+    A link that is as the shared table has it needs no row; a shared link that is not wanted gets one with gain 0. Only rows
+    that change are in the answer. Raises `InputError` for a link that can't be, two of the same, or none at all.
+    """
+    character = records[f"characters/{name}/character.tsv"][name,]
+    shared, own = shared_links(records, character), records.get(own_table(name), {})
+    poses = PoseSet.from_records(records, character["pose_set"]).poses
+    result: dict[Key, Row | None] = {}
+    seen: set[Key] = set()
+    for given in wanted:
+        row = _checked(name, given, poses)
+        key: Key = (row["pose"], row["shape"])
+        if key in seen:
+            raise InputError(f"{row['pose']} leads to {row['shape']} twice; keep one of the two links")
+        seen.add(key)
+        result[key] = None if key in shared and _same(row, shared[key]) else _kept(row, own.get(key))
+    if not any(float(given["gain"]) for given in wanted):
+        raise InputError("no link moves anything; keep one at least")
+    for key, row in shared.items():
+        if key not in seen:
+            result[key] = _kept({**row, "gain": "0"}, own.get(key))
+    result |= {key: None for key in own if key not in result}
+    return {key: row for key, row in result.items() if row != own.get(key)}
+
+
+def _checked(name: str, given: Mapping[str, str], poses: Sequence[str]) -> Row:
+    table = table_of(own_table(name))
+    assert table is not None
+    where = f"the link from {given.get('pose') or 'no pose'} to {given.get('shape') or 'no shape'}"
+    cells = {column: str(given.get(column) or "").strip() for column in ("pose", "shape", *VALUES, "comment")}
+    try:
+        row = canonical_row(table, {**cells, "combine": cells["combine"] or "sum", "source": SOURCE})
+    except ValueError as error:
+        raise InputError(f"{where}: {error}") from error
+    if row["pose"] not in poses:
+        raise InputError(f"{where}: there is no such pose; there are {', '.join(poses)}")
+    return row
+
+
+def _same(row: Row, other: Row) -> bool:
+    return all(row[name] == other[name] for name in VALUES)
+
+
+def _kept(row: Row, before: Row | None) -> Row:
+    """*row*, as it stands in the table when its values are the same; a doubt ends when somebody changes the link."""
+    if before is not None and _same(row, before) and row.get("comment", "") in ("", before["comment"]):
+        return before
+    changed = before is not None and not _same(row, before)
+    comment = "" if changed and row["comment"].endswith(DOUBTFUL) else row["comment"]
+    return {**row, "source": SOURCE, "comment": comment}
