@@ -56,7 +56,7 @@ def build() -> None:
         for source in SOURCES:
             copy = shutil.copytree if (VIEWER / source).is_dir() else shutil.copy2
             copy(VIEWER / source, work / source)
-        for arguments in (["ci", "--omit=dev", "--no-audit", "--no-fund", "--ignore-scripts"], ["run", "build"]):
+        for arguments in (["ci", "--omit=dev", "--no-audit", "--no-fund", "--ignore-scripts", "--fetch-retries=1"], ["run", "build"]):
             try:
                 done = subprocess.run(
                     [*npm, *arguments], cwd=work, env=environment, capture_output=True, text=True, timeout=600, check=False
