@@ -12,6 +12,9 @@ page = st.navigation(
     [
         st.Page("pages/say.py", title="Say", icon=":material/record_voice_over:", default=True),
         st.Page("pages/curves.py", title="Curves", icon=":material/timeline:"),
+        st.Page("pages/coverage.py", title="Coverage", icon=":material/grid_on:"),
+        st.Page("pages/languages.py", title="Languages", icon=":material/translate:"),
+        st.Page("pages/characters.py", title="Characters", icon=":material/face:"),
         st.Page("pages/history.py", title="History", icon=":material/history:"),
     ]
 )

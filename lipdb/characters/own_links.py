@@ -69,6 +69,8 @@ def link_rows(records: Records, name: str, wanted: Sequence[Mapping[str, str]]) 
     for given in wanted:
         row = _checked(name, given, poses)
         key: Key = (row["pose"], row["shape"])
+        if "comment" not in given and key in own:
+            row["comment"] = own[key]["comment"]
         if key in seen:
             raise InputError(f"{row['pose']} leads to {row['shape']} twice; keep one of the two links")
         seen.add(key)
@@ -77,7 +79,7 @@ def link_rows(records: Records, name: str, wanted: Sequence[Mapping[str, str]]) 
         raise InputError("no link moves anything; keep one at least")
     for key, row in shared.items():
         if key not in seen:
-            result[key] = _kept({**row, "gain": "0"}, own.get(key))
+            result[key] = _kept({**row, "gain": "0", "comment": own[key]["comment"] if key in own else ""}, own.get(key))
     result |= {key: None for key in own if key not in result}
     return {key: row for key, row in result.items() if row != own.get(key)}
 
@@ -101,9 +103,8 @@ def _same(row: Row, other: Row) -> bool:
 
 
 def _kept(row: Row, before: Row | None) -> Row:
-    """*row*, as it stands in the table when its values are the same; a doubt ends when somebody changes the link."""
-    if before is not None and _same(row, before) and row.get("comment", "") in ("", before["comment"]):
-        return before
-    changed = before is not None and not _same(row, before)
-    comment = "" if changed and row["comment"].endswith(DOUBTFUL) else row["comment"]
-    return {**row, "source": SOURCE, "comment": comment}
+    """*row* as it is stored: as it stands when nothing changes; a doubt ends when somebody changes the link."""
+    if before is not None and _same(row, before):
+        return before if row["comment"] == before["comment"] else {**before, "comment": row["comment"]}
+    doubted = before is not None and row["comment"].endswith(DOUBTFUL)
+    return {**row, "source": SOURCE, "comment": "" if doubted else row["comment"]}

@@ -1,0 +1,93 @@
+"""What a character has of its own: against what it would inherit, side by side, and back to that."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import streamlit as st
+from parts.compare import draw_versions
+from parts.lines import played, spoken
+from parts.rows import Rows, save_rows
+from parts.session import database, visitor
+from parts.stage import stage
+
+from lipdb.characters.overrides import REST, Override, overrides, with_siblings
+from lipdb.curves.curve import Curve
+from lipdb.curves.keys import parse_keys
+from lipdb.errors import LipdbError
+from lipdb.languages.examples import Examples
+from lipdb.performance import Performance
+
+
+def overrides_table(name: str, sentence: str, language: str) -> None:
+    """The table, what was chosen in it as curves and as faces, and the buttons that take it away. Raises `LipdbError`."""
+    db = database()
+    seen = db.store.revision
+    found = overrides(db.records, name, language)
+    if not found:
+        st.info("This character has nothing of its own. In Curves, save to the layer of this character.")
+        return
+    picked = st.dataframe(
+        [one.to_row() for one in found],
+        hide_index=True,
+        on_select="rerun",
+        selection_mode="multi-row",
+        key=f"characters_overrides_{name}_{language}_{seen}",
+        column_config={"own": "this character's value", "inherited": "inherited value", "layer": "from"},
+    )
+    chosen = [found[row] for row in picked.selection.rows]
+    _resets(name, found, chosen, seen)
+    if not chosen:
+        st.caption("Tick rows to see and hear them against what would be inherited.")
+        return
+    curves = {one.name: (_curve(one.inherited), _curve(one.own)) for one in chosen if one.what == "curve"}
+    if curves:
+        draw_versions(curves, "inherited", "own")
+    said = _example(chosen[0], name, language, seen) or sentence
+    st.write(f"“{said}”")
+    rows = with_siblings(db.records, chosen)
+    without = _without(said, language, name, seen, str(sorted(rows)), rows)
+    stage([played(spoken(said, language), name), without], key="characters_overrides_stage")
+
+
+def _resets(name: str, found: list[Override], chosen: list[Override], seen: int) -> None:
+    if not visitor().editor:
+        return
+    records = database().records
+    left, right, _ = st.columns([2, 2, 4])
+    count = len(with_siblings(records, chosen))
+    if left.button(
+        f"Reset {count or 'what is ticked'}", key="characters_reset", icon=":material/undo:", disabled=not chosen, width="stretch"
+    ):
+        what = ", ".join(one.name for one in chosen[:3]) + (" …" if len(chosen) > 3 else "")
+        save_rows(with_siblings(records, chosen), note=f"Reset of {name}: {what}", seen=seen)
+    with right.popover("Reset all", icon=":material/restart_alt:", width="stretch"):
+        st.write(f"All {len(found)} rows go back to what is inherited. History can take that back.")
+        if st.button("Reset all of them", key="characters_reset_all", type="primary"):
+            save_rows(with_siblings(records, found), note=f"Reset everything of {name}", seen=seen)
+
+
+@st.cache_resource(max_entries=16, show_spinner=False)
+def _without(sentence: str, language: str, name: str, revision: int, rows_key: str, _rows: Rows) -> Performance:  # noqa: ARG001
+    trial = database().supposing(_rows)
+    who = trial.character(name)
+    return trial.animate(spoken(sentence, language), character=replace(who, title=f"{who.title or name}, inherited"))
+
+
+@st.cache_resource(max_entries=8, show_spinner="Listening to the sample sentences")
+def _examples(language: str, name: str, revision: int) -> Examples:  # noqa: ARG001
+    return Examples(database(), language, name)
+
+
+def _example(one: Override, name: str, language: str, revision: int) -> str:
+    """A short sentence that needs the pair of *one*; empty when there is none."""
+    if one.pair is None:
+        return ""
+    try:
+        return next(iter(_examples(language, name, revision).containing(*one.pair)), "")
+    except LipdbError:
+        return ""
+
+
+def _curve(keys: str) -> Curve:
+    return Curve(() if keys == REST else parse_keys(keys))
