@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 
 import pytest
 from browser import PATIENCE, settled
@@ -14,11 +15,20 @@ def open_curves(app, page, *, name: str, pair: str = "l-ow", character: str = "r
     page.goto(f"{app.url}/curves?pair={pair}&language=en&character={character}&kind={kind}")
     page.locator(".keys .lane").first.wait_for()
     page.locator(".stage .play").first.wait_for()
-    page.evaluate("document.querySelectorAll('.stage').forEach(stage => stage.lipdb?.clock.pause())")
+    page.locator(".stage").evaluate_all("all => all.forEach(stage => stage.lipdb?.clock.pause())")
     field = page.get_by_role("textbox", name="Your name")
     field.fill(name)
     field.press("Enter")
     settled(page)
+
+
+def until(page, holds: Callable[[], bool]) -> None:
+    """Wait until something holds; components are not in the page's own tree, where Playwright's functions look."""
+    for _ in range(PATIENCE // 50):
+        if holds():
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("it did not come to hold")
 
 
 def lane(page, pose: str):
@@ -79,9 +89,7 @@ def test_a_dragged_key_is_drawn_saved_found_and_undone(app, curves, tmp_path) ->
     assert new[1][1] > old[1][1] + 0.2
     assert [key for k, key in enumerate(new) if k != 1] == [key for k, key in enumerate(old) if k != 1]
     assert new[1][1] * 20 == pytest.approx(round(new[1][1] * 20))  # on the grid
-    curves.wait_for_function(
-        "([pose, old]) => document.querySelector(`.keys .lane[data-pose=${pose}] .drawn`)?.getAttribute('points') !== old", arg=["W", drawn]
-    )
+    until(curves, lambda: lane(curves, "W").locator(".drawn").get_attribute("points") != drawn)
     save(curves, "rounder lips")
     curves.get_by_text("Saved l-ow: W to common").wait_for()
 
@@ -137,12 +145,16 @@ def test_the_loop_plays_the_edited_pair(app, curves) -> None:
     state = loop.evaluate("stage => [stage.lipdb.clock.loop, stage.lipdb.clock.duration]")
     assert state[0] == pytest.approx([0, state[1]], abs=0.02)
     loop.evaluate("stage => stage.lipdb.clock.seek(0.47)")
-    curves.wait_for_function("() => Math.abs(document.querySelector('.stage').lipdb.state.time - 0.47) < 1e-3")
-    before = loop.evaluate("stage => stage.lipdb.state.poses.W")
+    until(curves, lambda: abs(loop.evaluate("stage => stage.lipdb.state.time") - 0.47) < 1e-3)
+    before = rounding(loop)
     drag(curves, "W", 1, up=16)
-    curves.wait_for_function("before => document.querySelector('.stage').lipdb.state.poses.W > before + 0.1", arg=before)
+    until(curves, lambda: rounding(loop) > before + 0.1)
     curves.get_by_role("button", name="Discard").click()
-    curves.wait_for_function("before => Math.abs(document.querySelector('.stage').lipdb.state.poses.W - before) < 1e-6", arg=before)
+    until(curves, lambda: abs(rounding(loop) - before) < 1e-6)
+
+
+def rounding(loop) -> float:
+    return loop.evaluate("stage => stage.lipdb.state.poses.W")
 
 
 def test_two_people_and_one_curve(app, chromium, curves) -> None:

@@ -33,6 +33,7 @@ class Editor {
   private readonly redo: HTMLButtonElement;
   private readonly all: HTMLButtonElement;
   private readonly watcher: ResizeObserver;
+  private readonly listener = (event: KeyboardEvent): void => this.key(event);
 
   constructor(private readonly root: HTMLElement) {
     this.undo = this.button("Undo", "Take back the last change (Ctrl+Z)", () => this.travel(this.past, this.future), icon("undo"));
@@ -55,7 +56,8 @@ class Editor {
     bar.append(this.undo, this.redo, snap, onion, this.all);
     this.head.className = "head";
     root.replaceChildren(bar, this.head, this.lanes, this.hint);
-    root.addEventListener("keydown", (event) => this.key(event));
+    // On the whole page: a key that was focused and is taken away would take its keyboard with it.
+    document.addEventListener("keydown", this.listener);
     this.watcher = new ResizeObserver(() => this.show());
     this.watcher.observe(root);
   }
@@ -70,12 +72,12 @@ class Editor {
   }
 
   private key(event: KeyboardEvent): void {
-    if (!(event.ctrlKey || event.metaKey)) return;
+    const writing = event.composedPath()[0] instanceof HTMLElement && (event.composedPath()[0] as HTMLElement).matches("input, textarea");
+    if (!(event.ctrlKey || event.metaKey) || writing) return;
     const name = event.key.toLowerCase();
     const back = name === "z" && !event.shiftKey;
     if (!back && name !== "y" && name !== "z") return;
     event.preventDefault();
-    event.stopPropagation();
     if (back) this.travel(this.past, this.future);
     else this.travel(this.future, this.past);
   }
@@ -185,6 +187,7 @@ class Editor {
   dispose(): void {
     clearTimeout(this.timer);
     this.watcher.disconnect();
+    document.removeEventListener("keydown", this.listener);
   }
 }
 
