@@ -113,6 +113,23 @@ def test_slow_motion_sounds_and_takes_four_times_as_long(front) -> None:
     at_rest(front)
 
 
+def test_where_the_browser_lets_nothing_sound_the_face_moves_and_offers_the_sound(front) -> None:
+    seek(front, 0.5)
+    front.evaluate(
+        """() => {
+            const { prototype } = HTMLMediaElement;
+            window.allowed = prototype.play;
+            prototype.play = () => Promise.reject(new DOMException("a click first", "NotAllowedError"));
+        }"""
+    )
+    front.locator(".stage .play").click()
+    until(front, "stage.lipdb.state.hushed && stage.lipdb.clock.time > 0.6")
+    front.evaluate("() => { HTMLMediaElement.prototype.play = window.allowed; }")
+    front.get_by_text("Turn on the sound").click()
+    until(front, "!stage.lipdb.state.hushed && !stage.querySelector('audio').paused && stage.querySelector('audio').currentTime > 0.6")
+    at_rest(front)
+
+
 def test_a_stretch_that_is_dragged_loops_and_a_drag_scrubs(front) -> None:
     at_rest(front)
     box = front.locator(".stage .over").bounding_box()
