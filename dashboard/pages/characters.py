@@ -30,8 +30,9 @@ def gallery(name: str) -> None:
     db = database()
     who = db.character(name)
     rows = {row["pose"]: row["description"] for row in db.records[f"poses/{who.pose_set}.tsv"].values()}
+    drawn = pictures(name, who.drawing, db.store.revision)
     columns = st.columns(ACROSS)
-    for k, (pose, picture) in enumerate(pictures(name, who.drawing, db.store.revision).items()):
+    for k, (pose, picture) in enumerate(drawn.items()):
         columns[k % ACROSS].image(picture, caption=f"**{pose}** {rows.get(pose, '')}", width="stretch")
 
 

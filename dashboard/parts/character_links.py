@@ -17,7 +17,6 @@ from lipdb.errors import LipdbError
 from lipdb.performance import Performance
 
 SENTENCE = "the sentence"
-COLUMNS = ("pose", "shape", "gain", "combine", "curve", "own", "doubtful")
 
 
 def links_editor(name: str, sentence: str, language: str) -> None:
@@ -39,8 +38,10 @@ def links_editor(name: str, sentence: str, language: str) -> None:
             "combine": st.column_config.SelectboxColumn("Combine", options=["sum", "max"], default="sum", required=True),
             "curve": st.column_config.TextColumn("Curve", help="Bends the weight before the gain: 0:0 0.5:0.2 1:1. Empty: straight."),
             "own": st.column_config.CheckboxColumn("Own", disabled=True, help="The character's own, not the shared table's."),
-            "doubtful": st.column_config.CheckboxColumn("Doubtful", help="Matched by a name that is only alike."),
         }
+        if doubtful:
+            mark = st.column_config.CheckboxColumn("Doubtful", help="Matched by a name that is only alike.")
+            columns = {"doubtful": mark, **columns}
         edited = table(f"characters_links_{name}", held, "links", columns, rows="dynamic")
     wanted = [_row(row, held.tables["links"]) for row in edited]
     path = own_table(name)
@@ -56,7 +57,12 @@ def links_editor(name: str, sentence: str, language: str) -> None:
     with right:
         shown = st.selectbox("Show", [*poses, SENTENCE], key=f"characters_shown_{name}", help="A pose is raised and lowered in a loop.")
         performance = _performance(name, shown, sentence, language, db.store.revision, str(sorted(rows.items(), key=str)), rows)
-        stage([performance], key="characters_links_stage", loop=None if shown == SENTENCE else (0.0, performance.track.times[-1]))
+        stage(
+            [performance],
+            key="characters_links_stage",
+            autoplay=True,
+            loop=None if shown == SENTENCE else (0.0, float(performance.track.times[-1])),
+        )
 
 
 def _cells(name: str) -> list[dict[str, Any]]:

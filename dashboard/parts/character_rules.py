@@ -21,7 +21,7 @@ def rules_editor(name: str, sentence: str, language: str) -> None:
     """The tables of the character's pose set, and the sentence with and without what was changed. Raises `LipdbError`."""
     db = database()
     pose_set = db.character(name).pose_set
-    users = [row["title"] or row["character"] for row in db.characters() if row["pose_set"] == pose_set]
+    users = [row["character"] for row in db.characters() if row["pose_set"] == pose_set]
     st.info(f"These rules belong to the pose set {pose_set}: they count for {', '.join(users)}, in every language and every line.")
     key = f"characters_rules_{pose_set}"
     held = hold(key, lambda: _cells(pose_set))
