@@ -31,9 +31,10 @@ def gallery(name: str) -> None:
     who = db.character(name)
     rows = {row["pose"]: row["description"] for row in db.records[f"poses/{who.pose_set}.tsv"].values()}
     drawn = pictures(name, who.drawing, db.store.revision)
-    columns = st.columns(ACROSS)
-    for k, (pose, picture) in enumerate(drawn.items()):
-        columns[k % ACROSS].image(picture, caption=f"**{pose}** {rows.get(pose, '')}", width="stretch")
+    for start in range(0, len(drawn), ACROSS):
+        row = list(drawn.items())[start : start + ACROSS]
+        for column, (pose, picture) in zip(st.columns(ACROSS), row, strict=False):
+            column.image(picture, caption=f"**{pose}** {rows.get(pose, '')}", width="stretch")
 
 
 def chosen() -> tuple[str, str, str]:

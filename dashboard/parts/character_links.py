@@ -57,12 +57,8 @@ def links_editor(name: str, sentence: str, language: str) -> None:
     with right:
         shown = st.selectbox("Show", [*poses, SENTENCE], key=f"characters_shown_{name}", help="A pose is raised and lowered in a loop.")
         performance = _performance(name, shown, sentence, language, db.store.revision, str(sorted(rows.items(), key=str)), rows)
-        stage(
-            [performance],
-            key="characters_links_stage",
-            autoplay=True,
-            loop=None if shown == SENTENCE else (0.0, float(performance.track.times[-1])),
-        )
+        loop = None if shown == SENTENCE else (0.0, float(performance.track.times[-1]))
+        stage([performance], key="characters_links_stage", autoplay=True, loop=loop)
 
 
 def _cells(name: str) -> list[dict[str, Any]]:

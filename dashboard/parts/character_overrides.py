@@ -56,9 +56,8 @@ def _resets(name: str, found: list[Override], chosen: list[Override], seen: int)
     records = database().records
     left, right, _ = st.columns([2, 2, 4])
     count = len(with_siblings(records, chosen))
-    if left.button(
-        f"Reset {count or 'what is ticked'}", key="characters_reset", icon=":material/undo:", disabled=not chosen, width="stretch"
-    ):
+    label = f"Reset {count} row{'s' * (count > 1)}" if count else "Reset what is ticked"
+    if left.button(label, key="characters_reset", icon=":material/undo:", disabled=not chosen, width="stretch"):
         what = ", ".join(one.name for one in chosen[:3]) + (" …" if len(chosen) > 3 else "")
         save_rows(with_siblings(records, chosen), note=f"Reset of {name}: {what}", seen=seen)
     with right.popover("Reset all", icon=":material/restart_alt:", width="stretch"):
