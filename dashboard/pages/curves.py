@@ -102,7 +102,8 @@ def copy_from(now: Held) -> None:
         source = layers[st.session_state[layer]].view(db.records)
         now.give({pose: source.find(left, right, pose).curve.keys for pose in st.session_state[chosen]})
 
-    with st.popover("Copy from", icon=":material/content_copy:", help="Take over the curves of another pair, language or character"):
+    with st.popover("Copy from", icon=":material/content_copy:"):
+        st.caption("Take over the curves of another pair, language or character.")
         st.selectbox("Pair", every, index=every.index(place.pair), key=pair)
         st.selectbox("As used by", list(layers), key=layer)
         st.multiselect("Poses", poses, default=poses, key=chosen)

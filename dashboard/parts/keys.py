@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from itertools import count
+from secrets import token_hex
 from typing import Any
 
 import streamlit as st
@@ -17,7 +17,6 @@ from lipdb.schedule import SILENCE
 
 HELD = "curves_held"
 MOST_HELD = 50
-_TOKENS = count(1)
 COMPONENT = "curves_keys"
 
 
@@ -33,7 +32,7 @@ class Held:
     seen: int
     curves: Curves
     lengths: tuple[float, float]
-    token: str = field(default_factory=lambda: str(next(_TOKENS)))
+    token: str = field(default_factory=token_hex)
     given: dict[str, Any] | None = None
 
     @property
@@ -48,7 +47,7 @@ class Held:
     def give(self, curves: Curves) -> None:
         """Take over *curves* of some poses, as a step that the visitor can undo."""
         self.curves = {**self.curves, **curves}
-        self.given = {"token": str(next(_TOKENS)), "curves": _plain(curves)}
+        self.given = {"token": token_hex(), "curves": _plain(curves)}
 
 
 def held(place: Place, lengths: Callable[[], tuple[float, float]]) -> Held:

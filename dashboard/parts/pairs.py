@@ -149,7 +149,7 @@ def _matrix(language: str, character: str) -> None:
     """Every pair by where its curves come from; a click chooses one."""
     with shown_errors():
         uses = every_pair(language, character, database().store.revision)
-    event = st.altair_chart(_matrix_chart(uses), key="curves_cells", on_select="rerun", selection_mode="pair", width="content")
+    event = st.altair_chart(_matrix_chart(uses, choice()), key="curves_cells", on_select="rerun", selection_mode="pair", width="content")
     cells = event.selection.get("pair") or []
     if cells:
         take(cells[0]["left"], cells[0]["right"])
@@ -165,22 +165,24 @@ def every_pair(language: str, character: str, revision: int) -> list[PairUse]:  
     return database().uses(counts, language=language, character=character)
 
 
-def _matrix_chart(uses: list[PairUse]) -> alt.Chart:
+def _matrix_chart(uses: list[PairUse], chosen: Choice) -> alt.LayerChart:
     rows = [{"left": use.left, "right": use.right, "origin": use.origin, "layer": use.layer} for use in uses]
     order = sorted({use.left for use in uses}, key=lambda phone: (phone == SILENCE, phone))
     click = alt.selection_point(name="pair", fields=["left", "right"], on="click", clear=False)
     there = [origin for origin in ORIGINS if any(row["origin"] == origin for row in rows)]
     colours = alt.Scale(domain=there, range=[ORIGIN_COLOURS[origin] for origin in there])
-    return (
-        alt.Chart(pd.DataFrame(rows), width=alt.Step(CELL), height=alt.Step(CELL))
-        .mark_rect(stroke="white", strokeWidth=1, cursor="pointer")
-        .encode(
-            x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0, labelOverlap=False)),
-            y=alt.Y("left:N", sort=order, title="from", axis=alt.Axis(labelOverlap=False)),
-            color=alt.Color("origin:N", scale=colours, legend=alt.Legend(orient="bottom")),
-            tooltip=["left:N", "right:N", "origin:N", "layer:N"],
-        )
-        .add_params(click)
+    legend = alt.Legend(orient="bottom", title="where its curves come from", symbolStrokeWidth=0)
+    cells = alt.Chart(pd.DataFrame(rows), width=alt.Step(CELL), height=alt.Step(CELL)).encode(
+        x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0, labelOverlap=False)),
+        y=alt.Y("left:N", sort=order, title="from", axis=alt.Axis(labelOverlap=False)),
+        tooltip=["left:N", "right:N", "origin:N", "layer:N"],
+    )
+    here = (alt.datum.left == chosen.left) & (alt.datum.right == chosen.right)
+    return alt.layer(
+        cells.mark_rect(stroke="white", strokeWidth=1, cursor="pointer")
+        .encode(color=alt.Color("origin:N", scale=colours, legend=legend))
+        .add_params(click),
+        cells.mark_point(shape="circle", color="black", filled=True, size=60).transform_filter(here),
     )
 
 

@@ -14,6 +14,8 @@ const HELP = "Drag a key. Click a line, or double-click a lane, for a new one; d
 const LOCKED = "You may look, but not change.";
 /** Milliseconds after the last of several quick changes until they are sent. */
 const PAUSE = 120;
+/** Of more poses than these, those at rest are shown when they are asked for. */
+const FEW = 12;
 
 class Editor {
   private component: Component | null = null;
@@ -32,6 +34,7 @@ class Editor {
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
   private readonly all: HTMLButtonElement;
+  private readonly rest: HTMLButtonElement;
   private readonly watcher: ResizeObserver;
   private readonly listener = (event: KeyboardEvent): void => this.key(event);
 
@@ -49,11 +52,12 @@ class Editor {
       return made;
     };
     const snap = toggle("Snap", "Keep keys on a grid of 0.05; hold Alt to move freely", (on) => (this.snapping = on));
-    const onion = toggle("Layer below", "Show the curve of the layer below, dashed", (on) => this.lanes.classList.toggle("plain", !on));
+    const onion = toggle("Below", "Show the curve of the layer below, dashed", (on) => this.lanes.classList.toggle("plain", !on));
+    this.rest = toggle("At rest", "Show the poses that this pair leaves at rest", (on) => this.lanes.classList.toggle("moving", !on));
     const bar = document.createElement("div");
     bar.className = "bar";
     this.hint.className = "hint";
-    bar.append(this.undo, this.redo, snap, onion, this.all);
+    bar.append(this.undo, this.redo, snap, onion, this.rest, this.all);
     this.head.className = "head";
     root.replaceChildren(bar, this.head, this.lanes, this.hint);
     // On the whole page: a key that was focused and is taken away would take its keyboard with it.
@@ -104,6 +108,9 @@ class Editor {
     this.token = data.given?.token ?? "";
     [this.past, this.future] = [[], []];
     this.now = copy(Object.fromEntries(data.lanes.map(({ pose, keys }) => [pose, keys])));
+    const few = data.lanes.length <= FEW;
+    this.rest.setAttribute("aria-pressed", String(few));
+    this.lanes.classList.toggle("moving", !few);
     const events = {
       changed: () => this.step(this.curves()),
       snapping: () => this.snapping,

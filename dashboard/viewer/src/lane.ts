@@ -126,6 +126,7 @@ export class LaneView {
     const keys = this.counting;
     const own = this.keys !== null;
     this.root.classList.toggle("own", own);
+    this.root.classList.toggle("still", !keys.length && !this.lane?.below.length);
     this.reset.hidden = !own || this.events.locked();
     this.state.textContent = own ? (keys.length ? "" : "zero") : (this.lane?.from ?? "");
     for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(keys.length ? keys : ZERO));
