@@ -22,7 +22,9 @@ from lipdb.speech.voice import Voice
 
 FORMAT = 1
 MOST = 2_000_000
-"""Words. A lexicon that has more is given up for an empty one, and none are kept beyond, whatever people write."""
+"""Words. A lexicon that has more is given up for an empty one, so memory is bounded whatever people write."""
+KEPT = MOST // 2
+"""Words that are kept between scans: fewer, so that a scan that opens them has room."""
 _WORTH_AANSWERS = 2000  # Answers: fewer are sooner asked for again than opened.
 _MANY = 3
 _SUFFIX = ".parquet"
@@ -38,7 +40,7 @@ def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
     """The lexicon of *voice* with what *folder* has."""
     lexicon = Lexicon(voice)
     if folder is not None and len(answers := _once([table for _, table in _tables(folder)])):
-        lexicon.learn(answers.slice(0, MOST))
+        lexicon.learn(answers.slice(0, KEPT))
     return lexicon
 
 
@@ -47,7 +49,7 @@ def join_files(folder: Path) -> None:
     if len(_files(folder)) <= _MANY:
         return
     found = _tables(folder)
-    if _write(_once([table for _, table in found]), folder):
+    if _write(_once([table for _, table in found]).slice(0, KEPT), folder):
         for file, _ in found:
             file.unlink(missing_ok=True)
 
@@ -56,7 +58,7 @@ def keep(lexicon: Lexicon, folder: Path | None) -> None:
     """Keep what *lexicon* asked since the last time, if it is worth a file."""
     if folder is None or len(lexicon.asked) < _WORTH_AANSWERS:
         return
-    if len(lexicon) <= MOST:
+    if len(lexicon) <= KEPT:
         _write(lexicon.asked, folder)
     lexicon.asked = ANSWERS.empty_table()
 
