@@ -58,8 +58,8 @@ class ExactCounter:
         alike = Tally(zip(lines.document.tolist(), lines.texts.to_pylist(), strict=True))
         codes, lengths, spoken = array("H"), [], np.zeros(len(lines.names), np.int64)
         findings: dict[tuple[int, str], tuple[int, str]] = {}
-        for (document, text), times in alike.items():
-            said = speaker.say(text)
+        said_all = speaker.say_all([text for _, text in alike])
+        for ((document, text), times), said in zip(alike.items(), said_all, strict=True):
             codes.extend(said.codes)
             lengths.append(len(said.codes))
             if said.codes:

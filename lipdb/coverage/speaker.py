@@ -6,8 +6,8 @@ import re
 import sys
 import unicodedata
 from array import array
-from collections.abc import Callable
-from functools import cache, lru_cache
+from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import NamedTuple, Protocol, runtime_checkable
 
 from lipdb.coverage.findings import (
@@ -26,6 +26,7 @@ from lipdb.coverage.findings import (
 )
 from lipdb.errors import InputError, LipdbError
 from lipdb.schedule import SILENCE
+from lipdb.speech.phonemes import SWITCH
 from lipdb.speech.text import LONGEST_WORD, check_script, cleaned_up, is_plain
 from lipdb.speech.voice import Reading, Voice
 
@@ -34,6 +35,8 @@ REMEMBERED = 1 << 16
 LONGEST_REMEMBERED = 512
 LONGEST_PIECE = 2000
 """Characters that a voice is given at once: some need time by the square of them."""
+_AT_ONCE = 256
+_VOCABULARY = 1 << 17
 _PIECE = re.compile(
     rf"(.{{1,{LONGEST_PIECE}}}[.!?。！？…;；।؟])(?=\s|$)|(.{{1,{LONGEST_PIECE}}}(?=\s|$)|.{{1,{LONGEST_PIECE}}})", re.DOTALL
 )
@@ -54,50 +57,108 @@ class ReadsForeign(Protocol):
         """As `Voice.phrases`, with the number of foreign words."""
 
 
+@runtime_checkable
+class Spells(Protocol):
+    """A voice that tells its words as its engine spells them: they come again and again, and need be taken apart only once."""
+
+    def spelled(self, text: str) -> list[str]:
+        """The phrases of *text*, words between spaces, and `SWITCH` around those of another language."""
+
+    def symbols_of(self, word: str) -> tuple[str, ...]:
+        """The symbols of a word of `spelled`."""
+
+
 class Speaker:
     """A voice at work in one process: it remembers words, and lines that it has said."""
 
     def __init__(self, voice: Voice) -> None:
         self.voice = voice
+        # Asked once: Python takes as long for the question as a voice for a word.
+        self._spells = voice if isinstance(voice, Spells) else None
+        self._foreign = voice if isinstance(voice, ReadsForeign) else None
         self.labels = [SILENCE]
         self._code = {SILENCE: 0}
-        self._word = lru_cache(maxsize=1 << 17)(self._codes)
-        self._read: Callable[[str], Reading] = voice.read if isinstance(voice, ReadsForeign) else lambda text: Reading(voice.phrases(text))
-        self._remembered = lru_cache(maxsize=REMEMBERED)(self._say)
+        self._words: dict[str | tuple[str, ...], array[int]] = {}
+        self._lines: dict[str, Said] = {}
 
     def say(self, text: str) -> Said:
         """*text* as the voice says it; no codes when it can't."""
-        return self._remembered(text) if len(text) <= LONGEST_REMEMBERED else self._say(text)
+        return next(self.say_all([text]))
 
-    def _say(self, text: str) -> Said:
-        return self._say_piece(text) if len(text) <= LONGEST_PIECE else self._say_pieces(text)
+    def say_all(self, texts: Sequence[str]) -> Iterator[Said]:
+        """Each of *texts* as the voice says it.
 
-    def _say_pieces(self, text: str) -> Said:
-        """A long line in pieces that end where a sentence does, or else between words."""
-        codes, reasons = array("H"), dict[str, None]()
-        for sentence, rest in _PIECE.findall(text):
-            said = self._say_piece(sentence or rest)
-            codes.extend(said.codes)
-            reasons |= dict.fromkeys(reason for reason in said.reasons if reason != NO_WORDS)
-            if rest.strip() and len(rest) > LONGEST_PIECE // 2:
-                reasons[LONG_LINE] = None
-        return Said(codes, tuple(reasons) if codes or reasons else (NO_WORDS,))
+        First the engine speaks, then its words are taken apart, some lines at once: in turn, each would push the other out
+        of the processor's cache.
+        """
+        for start in range(0, len(texts), _AT_ONCE):
+            some = texts[start : start + _AT_ONCE]
+            asked = [self._lines.get(text) or self._ask(text) for text in some]
+            yield from map(self._told, some, asked)
 
-    def _say_piece(self, text: str) -> Said:
+    def _ask(self, text: str) -> Said | list[str] | Reading:
+        """What the engine makes of *text*, not taken apart yet; or all of it, where it is long or can't be said."""
+        if len(text) > LONGEST_PIECE:
+            return self._say_pieces(text)
         try:
-            reading = self._read(text)
+            if self._spells:
+                return self._spells.spelled(text)
+            return self._foreign.read(text) if self._foreign else Reading(self.voice.phrases(text))
         except InputError:
             return Said(array("H"), (self._refused(text),))
         except LipdbError:
             raise  # The voice can't work at all.
         except Exception:  # noqa: BLE001  (a voice that fails on one line must not stop a corpus; the line is reported)
             return Said(array("H"), (FAILED,))
+
+    def _told(self, text: str, asked: Said | list[str] | Reading) -> Said:
+        """The codes of what the engine made of *text*."""
+        if isinstance(asked, Said):
+            return asked
+        codes, foreign = self._spelled(asked) if isinstance(asked, list) else self._read(asked)
+        said = Said(codes, _remarks(text, foreign)) if any(codes) else Said(array("H"), (NO_WORDS,))
+        if len(text) <= LONGEST_REMEMBERED:
+            if len(self._lines) >= REMEMBERED:
+                self._lines.clear()
+            self._lines[text] = said
+        return said
+
+    def _spelled(self, phrases: list[str]) -> tuple[array[int], int]:
+        codes, switches = array("H", (0,)), 0
+        for phrase in phrases:
+            bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
+            switches += found
+            for word in bare.split():
+                codes.extend(self._words.get(word) or self._learn(word))
+            codes.append(0)
+        return codes, switches
+
+    def _read(self, reading: Reading) -> tuple[array[int], int]:
         codes = array("H", (0,))
         for phrase in reading.phrases:
             for word in phrase:
-                codes.extend(self._word(word))
+                codes.extend(self._words.get(word) or self._learn(word))
             codes.append(0)
-        return Said(codes if len(codes) > 1 else array("H"), _remarks(text, reading) if len(codes) > 1 else (NO_WORDS,))
+        return codes, reading.foreign
+
+    def _say_pieces(self, text: str) -> Said:
+        """A long line in pieces that end where a sentence does, or else between words."""
+        codes, reasons = array("H"), dict[str, None]()
+        for sentence, rest in _PIECE.findall(text):
+            said = self.say(sentence or rest)
+            codes.extend(said.codes)
+            reasons |= dict.fromkeys(reason for reason in said.reasons if reason != NO_WORDS)
+            if rest.strip() and len(rest) > LONGEST_PIECE // 2:
+                reasons[LONG_LINE] = None
+        return Said(codes, tuple(reasons) if codes or reasons else (NO_WORDS,))
+
+    def _learn(self, word: str | tuple[str, ...]) -> array[int]:
+        """The codes of *word*, from now on without taking it apart."""
+        if len(self._words) >= _VOCABULARY:
+            self._words.clear()
+        symbols = self._spells.symbols_of(word) if self._spells and isinstance(word, str) else tuple(word)
+        self._words[word] = self._codes(symbols)
+        return self._words[word]
 
     def _codes(self, word: tuple[str, ...]) -> array[int]:
         for label in word:
@@ -119,9 +180,9 @@ class Speaker:
         return NOT_SAID
 
 
-def _remarks(text: str, reading: Reading) -> tuple[str, ...]:
+def _remarks(text: str, foreign_words: int) -> tuple[str, ...]:
     """What of *text* was read in a way that a person may not expect."""
-    foreign = (FOREIGN,) if reading.foreign else ()
+    foreign = (FOREIGN,) if foreign_words else ()
     if not _named().search(text) and len(text) <= LONGEST_WORD and is_plain(text):
         return foreign
     cleaned = cleaned_up(text)

@@ -114,15 +114,22 @@ class EspeakVoice:
 
     def read(self, text: str) -> Reading:
         """As `phrases`, with the number of words that are read by the rules of another language."""
-        _, spelt, _ = self._checked(text)
         phrases: list[Phrase] = []
         switches = 0
-        for phrase in phonemes.phrases(spelt, self.name):
+        for phrase in self.spelled(text):
             bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
             switches += found
-            if words := [symbols for word in bare.split() if (symbols := _symbols(word, self.symbols))]:
+            if words := [symbols for word in bare.split() if (symbols := self.symbols_of(word))]:
                 phrases.append(tuple(words))
         return Reading(tuple(phrases), (switches + 1) // 2)
+
+    def spelled(self, text: str) -> list[str]:
+        """The phrases of *text* as espeak writes them: words between spaces, and `SWITCH` around those of another language."""
+        return phonemes.phrases(self._checked(text)[1], self.name)
+
+    def symbols_of(self, word: str) -> tuple[str, ...]:
+        """The symbols of a *word* of `spelled`."""
+        return _symbols(word, self.symbols)
 
     def _checked(self, text: str) -> tuple[str, str, tuple[str, ...]]:
         """*text* cleaned, the same as it is spelt for espeak, and notes of what was left out."""
