@@ -105,7 +105,7 @@ def test_a_decision_is_signed_and_what_nobody_looked_at_stays_the_rules_own(palu
     ]
     assert decided["comment"].startswith("the lips meet. Proposed f. The lips come close")
     assert [left[name] for name in ("common", "origin", "source")] == ["bmp", "generated", "lipdb"]
-    assert palu.next_doubtful("") == ""
+    assert palu.next_doubtful == ""
 
 
 @pytest.mark.parametrize(

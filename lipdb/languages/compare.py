@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from lipdb.curated.check import check
+from lipdb.curated.folder import scan_folder
 from lipdb.curated.tsv import Finding, Key, Records, Row
+from lipdb.errors import InputError, PhonesetError
 from lipdb.store.cells import differing, flat, nested
 from lipdb.store.merge import merge
 
@@ -44,6 +47,21 @@ class Difference:
         """A line of a listing: only the cells that differ."""
         sides = {LEFT: differing(self.left, self.right), RIGHT: differing(self.right, self.left)}
         return {"what": "conflict" if self.conflict else self.kind, "table": self.path, "row": " ".join(self.key), **sides}
+
+
+def read_version(folder: Path) -> Records:
+    """The records in *folder*: a folder of curated text, one of a few languages, or a language's own.
+
+    Raises `InputError` when it is none of these, `PhonesetError` with all findings when the text is wrong.
+    """
+    own = (folder / "language.tsv").is_file()
+    # A folder that is none of these may hold a whole disk.
+    if not own and not (folder / "common.tsv").is_file() and not any(folder.glob("*/language.tsv")):
+        raise InputError(f"{folder}: no curated text there; give a folder with common.tsv, with folders of languages, or a language's own")
+    records, findings = scan_folder(folder.resolve().parent, below=folder.resolve().name) if own else scan_folder(folder)
+    if findings:
+        raise PhonesetError("\n".join(str(folder / str(one)) for one in findings))
+    return records
 
 
 def completed(side: Records, other: Records) -> Records:

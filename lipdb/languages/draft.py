@@ -72,13 +72,13 @@ class Draft:
         return self.row["speech"] == WRITTEN
 
     def in_order(self) -> list[Entry]:
-        """The phones as a person should look at them: doubtful ones first, then by confidence, then by name."""
-        return sorted(self.entries.values(), key=lambda one: (not one.doubtful, one.phone.proposal.confidence, one.phone.ipa))
+        """The phones as a person should look at them: those that a rule doubts first, then by confidence, then by name."""
+        return sorted(self.entries.values(), key=lambda one: (not one.phone.review, one.phone.proposal.confidence, one.phone.ipa))
 
-    def next_doubtful(self, after: str) -> str:
-        """The next phone in order, behind *after*, that must be looked at; nothing when there is none."""
-        names = [one.phone.ipa for one in self.in_order() if one.doubtful and one.phone.ipa != after]
-        return names[0] if names else ""
+    @property
+    def next_doubtful(self) -> str:
+        """The next phone that must be looked at; nothing when there is none."""
+        return next((one.phone.ipa for one in self.in_order() if one.doubtful), "")
 
     def decide(self, name: str, *, common: Sequence[str], example: str, spelt: str = "", note: str = "") -> None:
         """Take over what a person says of phone *name*. Raises `InputError` for what can't be."""
@@ -128,9 +128,10 @@ class Draft:
                 entry.common, entry.decided = entry.phone.proposal.common, False
 
     def tables(self, records: Records, *, author: str) -> dict[str, dict[Key, Row]]:
-        """The rows of the language: its own tables, and those that it adds to ``common.tsv``."""
+        """The rows of the language: its own tables, and those that it adds to ``common.tsv``; without *author* nobody's yet."""
+        author = author or NOBODY
         time = datetime.now(UTC).strftime(TIME_FORMAT)
-        phones = [self._signed(row, author=author, time=time) for row in phone_rows(self._kept(), author=author or NOBODY, time=time)]
+        phones = [self._signed(row, author=author, time=time) for row in phone_rows(self._kept(), author=author, time=time)]
         cells: dict[str, Iterable[dict[str, str]]] = {
             "language": [self.row],
             "phones": phones,

@@ -1,0 +1,96 @@
+"""The aliases of a language: what other notations and tools write for its phones."""
+
+from __future__ import annotations
+
+import pandas as pd
+import streamlit as st
+from parts.language_edit import fill, forget, picked, save_one
+from parts.language_work import told
+from parts.session import Edited, database, visitor
+
+from lipdb.curated.tsv import Key, Row
+from lipdb.errors import InputError
+from lipdb.schedule import SILENCE
+
+NEW = "a new one"
+
+
+def show_aliases(code: str, _character: str | None) -> None:
+    """Look for aliases, and edit one."""
+    db = database()
+    rows = db.records.get(f"{code}/aliases.tsv", {})
+    notations = sorted({key[0] for key in rows})
+    first, second = st.columns(2)
+    notation = first.selectbox("Notation", ["all", *notations], key=f"languages_notation_{code}", persist_state="session")
+    wanted = second.text_input("Find", key=f"languages_find_{code}", persist_state="session", placeholder="a symbol, or a phone")
+    found = [
+        key
+        for key, row in sorted(rows.items())
+        if notation in ("all", key[0]) and (not wanted.strip() or wanted.strip() in (key[1], *row["phones"].split()))
+    ]
+    left, right = st.columns([3, 2], gap="medium")
+    titles = {" ".join(key): key for key in found}
+    key, chosen = f"languages_aliases_{code}", f"languages_alias_of_{code}"
+    left.dataframe(
+        pd.DataFrame([rows[one] for one in found], columns=["notation", "symbol", "phones", "source", "comment"]),
+        key=key,
+        hide_index=True,
+        height=520,
+        on_select=lambda: picked(key, list(titles), chosen),
+        selection_mode="single-row",
+    )
+    left.caption(f"{len(found)} of {len(rows)} aliases")
+    with right:
+        title = st.selectbox("Alias", [NEW, *titles], key=chosen, persist_state="session")
+        _edit_alias(code, titles.get(title), rows, notations)
+
+
+def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notations: list[str]) -> None:
+    phones = sorted(name for (name,) in database().records[f"{code}/phones.tsv"])
+    row: Row = dict(rows[key]) if key else {"notation": "", "symbol": "", "phones": "", "source": "user", "comment": ""}  # type: ignore[index]
+    place = f"languages_alias_{code}_{'_'.join(key or ())}"
+    fill(place, {"notation": row["notation"] or None, "symbol": row["symbol"], "phones": row["phones"].split(), "comment": row["comment"]})
+    left, right = st.columns(2)
+    notation = left.selectbox(
+        "Notation",
+        notations,
+        key=f"{place}_notation",
+        persist_state="session",
+        accept_new_options=True,
+        disabled=key is not None,
+        placeholder="ipa",
+    )
+    symbol = right.text_input("Symbol", key=f"{place}_symbol", persist_state="session", disabled=key is not None, max_chars=40)
+    stands = st.multiselect(
+        "Stands for",
+        [SILENCE, *phones],
+        key=f"{place}_phones",
+        persist_state="session",
+        format_func=lambda one: "_ (a pause)" if one == SILENCE else one,
+        help="Phones in their order. A phone twice in one symbol is written in the text folder.",
+    )
+    comment = st.text_input("Comment", key=f"{place}_comment", persist_state="session", max_chars=200)
+    edited = {
+        **row,
+        "notation": notation or "",
+        "symbol": "".join(symbol.split()),
+        "phones": " ".join(stands),
+        "comment": " ".join(comment.split()),
+    }
+    changed, may = edited != row, visitor().editor
+    first, second, third = st.columns(3)
+    what = f"{edited['notation']} {edited['symbol']} of {code} stands for {edited['phones']}"
+    if first.button("Save", type="primary", key=f"{place}_save", disabled=not changed or not may, width="stretch"):
+        with told():
+            if not edited["notation"] or not edited["symbol"] or not stands:
+                raise InputError("give the notation, the symbol and what it stands for")
+            if key is None and (edited["notation"], edited["symbol"]) in rows:  # type: ignore[operator]
+                raise InputError(f"{edited['symbol']!r} of {edited['notation']} is there already; choose it in the list to change it")
+            save_one(Edited(f"{code}/aliases.tsv", (edited["notation"], edited["symbol"]), edited), note=what, place=place, what=what)
+    if second.button("Undo", key=f"{place}_undo", disabled=not changed, width="stretch"):
+        forget(place)
+        st.rerun()
+    if key is not None and third.button("Delete", key=f"{place}_delete", disabled=not may, width="stretch"):
+        with told():
+            gone = f"{' '.join(key)} of {code} is gone"
+            save_one(Edited(f"{code}/aliases.tsv", key, None), note=gone, place=place, what=gone)

@@ -1,0 +1,57 @@
+"""Editing one row of a language: what is typed outlives other pages, and is saved against the revision that was seen."""
+
+from __future__ import annotations
+
+import streamlit as st
+from parts.conflict import Choice, save_or_ask
+from parts.session import Edited, database
+
+SAVED = "languages_saved"
+
+
+def seen(place: str) -> int:
+    """The revision at which the visitor began to edit at *place*: what is saved in between is a conflict."""
+    begun: dict[str, int] = st.session_state.setdefault("languages_seen", {})
+    return begun.setdefault(place, database().store.revision)
+
+
+def forget(place: str) -> None:
+    """Begin anew at *place*: its fields show what is saved."""
+    st.session_state.get("languages_seen", {}).pop(place, None)
+    for name in [name for name in st.session_state if str(name).startswith(f"{place}_")]:
+        del st.session_state[name]
+
+
+def fill(place: str, fields: dict[str, object]) -> None:
+    """Show *fields*, unless the visitor has typed something there that is not saved yet."""
+    kept = st.session_state.setdefault(f"{place}_from", fields)
+    typed = any(st.session_state.get(f"{place}_{name}", value) != value for name, value in kept.items())
+    if kept != fields and not typed:
+        forget(place)
+        st.session_state[f"{place}_from"] = fields
+    seen(place)
+    for name, value in fields.items():
+        st.session_state.setdefault(f"{place}_{name}", value)
+
+
+def picked(key: str, names: list[str], target: str) -> None:
+    """Take over the row of the table *key* that was clicked on into the widget *target*; *names* are its rows."""
+    rows = st.session_state[key].selection.rows
+    if rows:
+        st.session_state[target] = names[rows[0]]
+
+
+def save_one(edit: Edited, *, note: str, place: str, what: str) -> None:
+    """Save *edit* as the visitor saw it at *place*, or ask when somebody was first; *what* says what was done."""
+    begun = seen(place)
+
+    def after(choice: Choice, revision: int | None) -> None:
+        if choice == "edit":
+            return
+        forget(place)
+        st.session_state[SAVED] = (
+            f"Revision {revision}: {what}." if revision else "Nothing was changed." if choice == "mine" else "Theirs stays."
+        )
+
+    save_or_ask([edit], note=note, seen=begun, after=after)
+    st.rerun()
