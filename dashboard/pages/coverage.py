@@ -60,7 +60,7 @@ def ask() -> Chosen:
         "Languages",
         list(names),
         format_func=names.__getitem__,
-        key=keep("coverage_languages", ["en"] if "en" in names else list(names)[:1]),
+        key=keep("coverage_languages", ["en"] if "en" in names else list(names)[:1], among=names),
     )
     offered = {corpus.key: corpus for corpus in corpora(languages)}
     among = "coverage_text " + " ".join(offered)
@@ -76,7 +76,7 @@ def ask() -> Chosen:
         "Character",
         list(characters),
         format_func=characters.__getitem__,
-        key=keep("coverage_character", "robin" if "robin" in characters else next(iter(characters), None)),
+        key=keep("coverage_character", "robin" if "robin" in characters else next(iter(characters), None), among=characters),
         help="Whose curves: a character may have curves of its own.",
     )
     silence = fourth.toggle(
@@ -183,16 +183,16 @@ with shown_errors():
         st.warning(
             f"{', '.join(stale)}: counted with a mapping that has changed since. Count again under Corpora.", icon=":material/update:"
         )
-    if not now.frequency.counts and view in (FREQUENCY, TO_DO):
+    if not now.frequency.counts and view in (MATRIX, FREQUENCY, TO_DO):
         st.info("No text is chosen, so nothing is counted: choose one above, or count one of your own under Corpora.")
-    elif view == MATRIX:
+    if view == MATRIX:
         show_matrix(now)
-    elif view == FREQUENCY:
+    elif view == FREQUENCY and now.frequency.counts:
         show_frequency(now)
-    elif view == TO_DO:
+    elif view == TO_DO and now.frequency.counts:
         show_to_do(now)
     elif view == SCRIPT:
         ask_script(now.languages, now.character, silence=st.session_state["coverage_silence"])
-    else:
+    elif view == CORPORA:
         show_scans(now.languages)
         ask_corpus(now.languages)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 import pandas as pd
@@ -13,10 +13,20 @@ ROW, MOST = 35, 560
 """Pixels of a row, and of a table at most."""
 
 
-def keep(key: str, value: object) -> str:
-    """*key* of a widget that begins with *value*, and that comes back with what it had when the page was left."""
+def keep(key: str, value: Any, *, among: Collection[Any] = ()) -> str:
+    """*key* of a widget that begins with *value*, and that comes back with what it had when the page was left.
+
+    What is no longer *among* the options, where they are given, is forgotten.
+    """
     kept: dict[str, Any] = st.session_state.setdefault(KEPT, {})
-    kept[key] = st.session_state.setdefault(key, kept.get(key, value))
+    held = st.session_state.get(key, kept.get(key, value))
+    if among and isinstance(held, list):
+        held = [one for one in held if one in among]
+    elif among and held not in among:
+        held = value
+    if st.session_state.get(key) != held:
+        st.session_state[key] = held
+    kept[key] = held
     return key
 
 

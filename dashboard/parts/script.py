@@ -20,6 +20,8 @@ from lipdb.progress import reported
 
 LARGEST = 1_000_000
 """Bytes of a script: two long novels."""
+LISTED, NUMBERS = 5, 40
+"""Lines left out that are told one by one, and numbers of lines told for a pair."""
 READ = "coverage_script_read"
 
 
@@ -51,7 +53,11 @@ def _read(text: str, language: str) -> Script:
     key = hashlib.sha256(text.encode()).hexdigest(), language, database().store.revision
     if st.session_state.get(READ, ("",))[0] != key:
         bar = st.progress(0.0, "Reading…")
-        with reported(lambda _, done, total: bar.progress(done / total, f"Reading: {done:,} of {total:,} lines") and None):
+
+        def told(_: str, done: int, total: int) -> None:
+            bar.progress(done / total, f"Reading: {done:,} of {total:,} lines")
+
+        with reported(told):
             script = read_script(text, database().voice(language), database().phoneset(language))
         bar.empty()
         st.session_state[READ] = key, script
@@ -66,8 +72,10 @@ def show_script(script: Script, language: str, character: str, *, silence: bool)
     spoken = len(script.lines) - len(script.left_out)
     st.subheader(f"This scene: {len(uses)} pairs, {len(uses) - len(missing)} authored or fitted")
     st.caption(f"{spoken} of {len(script.lines)} lines are read as {database().language(language)['name']}.")
-    for line in script.left_out[:5]:
+    for line in script.left_out[:LISTED]:
         st.caption(f":material/info: line {line.number} is left out: {line.left_out}")
+    if len(script.left_out) > LISTED:
+        st.caption(f":material/info: {len(script.left_out) - LISTED:,} more lines are left out")
     if not missing:
         st.success("Every pair of this script has authored or fitted curves.", icon=":material/done_all:")
         return
@@ -94,7 +102,9 @@ def _by_pair(script: Script, missing: Sequence[PairUse]) -> pd.DataFrame:
     rows = []
     for use in missing:
         lines = script.needing(use.pair)
-        numbers = ", ".join(str(line.number) for line in lines)
+        numbers = ", ".join(str(line.number) for line in lines[:NUMBERS]) + (
+            f" and {len(lines) - NUMBERS:,} more" if len(lines) > NUMBERS else ""
+        )
         rows.append(
             {
                 "pair": "-".join(use.pair),
