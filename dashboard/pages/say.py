@@ -40,7 +40,11 @@ def ask() -> tuple[Line | None, str, Beside | None]:
     first, second, third, fourth, fifth = st.columns([4, 3, 3, 4, 4])
     source = first.segmented_control("From", ["Text", "Recording"], default="Text", key="say_source") or "Text"
     language = second.selectbox(
-        "Language", languages, index=_place(languages, DEFAULT_LANGUAGE), format_func=languages.__getitem__, key="say_language"
+        "Language",
+        languages,
+        index=_place(languages, st.session_state.get("say_open", DEFAULT_LANGUAGE)),
+        format_func=languages.__getitem__,
+        key="say_language",
     )
     voices = db.voices(language)
     voice = third.selectbox("Voice", voices, format_func=voice_title, key=f"say_voice_{language}", disabled=source != "Text")
