@@ -43,7 +43,7 @@ function button(face: IconName | null, text: string, title: string, act: () => v
 
 function group(label: string, buttons: HTMLElement[]): HTMLElement {
   const made = document.createElement("span");
-  made.className = "group";
+  made.className = `group ${label.toLowerCase()}`;
   made.setAttribute("role", "group");
   made.setAttribute("aria-label", label);
   made.append(...buttons);
@@ -101,7 +101,6 @@ export class Controls {
       ]),
     );
     this.look = group("View", this.views.map(([, each]) => each));
-    this.look.classList.add("views");
   }
 
   private turn(view: ViewName): void {
