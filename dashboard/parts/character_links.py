@@ -30,7 +30,8 @@ def links_editor(name: str, sentence: str, language: str) -> None:
     with left:
         doubtful = sum(row["doubtful"] for row in held.tables["links"])
         if doubtful:
-            st.warning(f"{doubtful} shapes have names that are only alike: look at them, change them, or untick “doubtful”.")
+            lead = "links lead to shapes" if doubtful > 1 else "link leads to a shape"
+            st.warning(f"{doubtful} {lead} of a name that is only alike: look at it, change it, or untick “doubtful”.")
         columns = {
             "pose": st.column_config.SelectboxColumn("Pose", options=list(poses), required=True),
             "shape": st.column_config.SelectboxColumn("Shape", options=shapes, required=True),
