@@ -146,6 +146,10 @@ def test_the_loop_plays_the_edited_pair(app, curves) -> None:
     assert state[0] == pytest.approx([0, state[1]], abs=0.02)
     loop.evaluate("stage => stage.lipdb.clock.seek(0.47)")
     until(curves, lambda: abs(loop.evaluate("stage => stage.lipdb.state.time") - 0.47) < 1e-3)
+    playhead = curves.locator(".keys .playhead")
+    until(curves, playhead.is_visible)
+    box, plot = playhead.bounding_box(), lane(curves, "W").locator(".plot").bounding_box()
+    assert box["x"] == pytest.approx(plot["x"] + plot["width"] / 2, abs=3)  # the border of the two phones
     before = rounding(loop)
     drag(curves, "W", 1, up=16)
     until(curves, lambda: rounding(loop) > before + 0.1)

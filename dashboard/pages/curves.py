@@ -19,7 +19,7 @@ from lipdb.curves.rehearse import Rehearsal, occurrences
 from lipdb.performance import Performance
 from lipdb.schedule import SILENCE
 
-SAVED = "curves_saved"
+SAVED, LOOP = "curves_saved", "curves_loop"
 
 
 def ask_layer(place: Place) -> Place:
@@ -28,7 +28,7 @@ def ask_layer(place: Place) -> Place:
     names = {
         COMMON: "All languages",
         LANGUAGE: db.language(place.language)["name"],
-        CHARACTER: db.character(place.character).title.partition(",")[0] or place.character,
+        CHARACTER: place.character,
     }
     buttons, reach = st.columns([4, 5], vertical_alignment="center")
     st.session_state["curves_kind"] = place.kind
@@ -56,7 +56,7 @@ def show_loop(place: Place, records: Records, loop: Rehearsal) -> None:
     who = db.character(place.character)
     stage(
         [Performance(track, who)],
-        key="curves_loop",
+        key=LOOP,
         loop=(0.0, loop.duration),
         autoplay=True,
         compact=True,
@@ -190,7 +190,8 @@ def work(place: Place) -> None:
         loop = Rehearsal.of(place.left, place.right, now.lengths)
         left, right = st.columns([3, 2], gap="medium")
         with left:
-            editor(now, loop.drawn(place.view(records), database().pose_set(place.pose_set)))
+            drawn = loop.drawn(place.view(records), database().pose_set(place.pose_set))
+            editor(now, drawn, stage=LOOP, span=(loop.start, loop.border, loop.end))
             ask_save(now)
             show_sources(now)
         with right:

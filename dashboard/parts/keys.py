@@ -107,8 +107,11 @@ def _receive(now: Held) -> None:
         now.lengths = first, second
 
 
-def editor(now: Held, drawn: Mapping[str, Keys]) -> None:
-    """Show *now* to be edited, with what the engine has *drawn* of it."""
+def editor(now: Held, drawn: Mapping[str, Keys], *, stage: str, span: tuple[float, float, float]) -> None:
+    """Show *now* to be edited, with what the engine has *drawn* of it.
+
+    The player *stage* plays the pair from the first to the last of *span* seconds, with the border in the middle.
+    """
     mount = component("keys")
     if mount is None:
         return
@@ -131,6 +134,7 @@ def editor(now: Held, drawn: Mapping[str, Keys]) -> None:
         "lengths": now.lengths,
         "lanes": lanes,
         "locked": not visitor().editor,
+        "playing": {"stage": stage, "span": span},
         "silent": [place.left == SILENCE, place.right == SILENCE],
         "given": now.given,
     }

@@ -45,6 +45,6 @@ def stage(
     for place, (content, media) in enumerate(files):
         link(content, media, f"{key} {place}")
     options = {"loop": loop, "autoplay": autoplay, "compact": compact, "marks": list(marks)}
-    data = data | {name: value for name, value in options.items() if value} | {"id": f"{data['id']} {options}"}
+    data = data | {name: value for name, value in options.items() if value} | {"id": f"{data['id']} {options}", "name": key}
     answer = mount(data=data, key=key, on_pick_change=lambda: None)
     return answer.get("pick")

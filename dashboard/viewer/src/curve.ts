@@ -26,6 +26,8 @@ export interface KeysData {
   lengths: [number, number];
   lanes: Lane[];
   locked: boolean;
+  /** The stage that plays the pair, and where it begins, its border and its end, in seconds. */
+  playing: { stage: string; span: [number, number, number] };
   /** Whether the curve comes out of silence, or goes into it: it has to be at rest there. */
   silent: [boolean, boolean];
   /** Curves to take over as one step that can be undone, once for each token. */
@@ -52,6 +54,12 @@ export function copy(curves: Curves): Curves {
 
 export function same(a: Curves, b: Curves): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
+}
+
+/** Where `time` seconds are in the normalised time of a pair of phones that stands at `span`; null outside. */
+export function normalised(time: number, [start, border, end]: [number, number, number]): number | null {
+  if (time < start || time > end) return null;
+  return time < border ? (time - start) / (border - start) / 2 : 0.5 + (time - border) / (end - border) / 2;
 }
 
 /** `keys` at rest where silence is. */

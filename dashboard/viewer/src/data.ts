@@ -29,6 +29,8 @@ export interface StageData {
   autoplay?: boolean;
   /** Smaller faces, and no lanes of poses. */
   compact?: boolean;
+  /** Who it is in the events `lipdb-time` that it sends whenever it draws another instant. */
+  name?: string;
   /** Stretches of time to point out in the lanes, in seconds. */
   marks?: [number, number][];
 }

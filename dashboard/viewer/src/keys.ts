@@ -1,8 +1,8 @@
 // The curve editor: a lane for each pose, its keys over normalised time, to be dragged, added and taken away.
 
-import { copy, same, type Curves, type KeysData } from "./curve";
+import { copy, normalised, same, type Curves, type KeysData } from "./curve";
 import { icon } from "./icons";
-import { LaneView } from "./lane";
+import { LaneView, PAD } from "./lane";
 
 interface Component {
   data: KeysData;
@@ -36,6 +36,8 @@ class Editor {
   private readonly all: HTMLButtonElement;
   private readonly rest: HTMLButtonElement;
   private readonly watcher: ResizeObserver;
+  private readonly playhead = document.createElement("div");
+  private readonly follower = (event: Event): void => this.follow((event as CustomEvent<{ stage: string; time: number }>).detail);
   private readonly listener = (event: KeyboardEvent): void => this.key(event);
 
   constructor(private readonly root: HTMLElement) {
@@ -59,9 +61,13 @@ class Editor {
     this.hint.className = "hint";
     bar.append(this.undo, this.redo, snap, onion, this.rest, this.all);
     this.head.className = "head";
+    this.playhead.className = "playhead";
+    this.playhead.hidden = true;
+    this.lanes.className = "lanes";
     root.replaceChildren(bar, this.head, this.lanes, this.hint);
     // On the whole page: a key that was focused and is taken away would take its keyboard with it.
     document.addEventListener("keydown", this.listener);
+    document.addEventListener("lipdb-time", this.follower);
     this.watcher = new ResizeObserver(() => this.show());
     this.watcher.observe(root);
   }
@@ -118,7 +124,7 @@ class Editor {
       silent: () => this.component?.data.silent ?? ([false, false] as [boolean, boolean]),
     };
     this.views = new Map(data.lanes.map(({ pose }) => [pose, new LaneView(pose, events)]));
-    this.lanes.replaceChildren(...[...this.views.values()].map((view) => view.root));
+    this.lanes.replaceChildren(...[...this.views.values()].map((view) => view.root), this.playhead);
     this.lengths = [...data.lengths];
     const names = [data.left, data.right].map((phone, k) => this.name(phone, k));
     this.head.replaceChildren(document.createElement("span"), ...names);
@@ -152,13 +158,26 @@ class Editor {
   private show(): void {
     if (!this.component) return;
     const { data } = this.component;
-    const name = this.lanes.querySelector<HTMLElement>(".name");
-    const width = Math.max(this.root.clientWidth - (name?.offsetWidth ?? 0), 200);
+    const width = Math.max(this.root.clientWidth - this.names, 200);
     for (const lane of data.lanes) this.views.get(lane.pose)?.show(lane, this.now[lane.pose] ?? null, width);
     this.undo.disabled = this.locked || !this.past.length;
     this.redo.disabled = this.locked || !this.future.length;
     this.all.disabled = this.locked || Object.values(this.now).every((keys) => keys === null);
     this.hint.textContent = this.locked ? LOCKED : HELP;
+  }
+
+  /** The width of the column of names. */
+  private get names(): number {
+    return this.lanes.querySelector<HTMLElement>(".lane:not(.still) .name, .name")?.offsetWidth ?? 0;
+  }
+
+  /** The playhead of the stage that plays the pair, over the lanes. */
+  private follow({ stage, time }: { stage: string; time: number }): void {
+    const playing = this.component?.data.playing;
+    if (!playing || stage !== playing.stage) return;
+    const at = normalised(time, playing.span);
+    this.playhead.hidden = at === null;
+    if (at !== null) this.playhead.style.left = `${this.names + PAD + at * (this.root.clientWidth - this.names - 2 * PAD)}px`;
   }
 
   private curves(): Curves {
@@ -195,6 +214,7 @@ class Editor {
     clearTimeout(this.timer);
     this.watcher.disconnect();
     document.removeEventListener("keydown", this.listener);
+    document.removeEventListener("lipdb-time", this.follower);
   }
 }
 

@@ -4,7 +4,7 @@ import { added, GRID, moved, rested, round, type Key, type Lane } from "./curve"
 import { icon } from "./icons";
 
 const HEIGHT = 50;
-const PAD = 7;
+export const PAD = 7;
 const SIZE = 6;
 const ZERO: Key[] = [[0, 0], [1, 0]];
 

@@ -227,6 +227,7 @@ export class Stage {
     this.lanes.playhead(time);
     this.drawn = time;
     this.changed = false;
+    this.root.dispatchEvent(new CustomEvent("lipdb-time", { bubbles: true, composed: true, detail: { stage: this.component?.data.name, time } }));
     if (playing) this.measure(passed, between - began, performance.now() - between);
   }
 
