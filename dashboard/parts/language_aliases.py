@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
+
 import pandas as pd
 import streamlit as st
 from parts.language_edit import fill, forget, picked, save_one
@@ -46,10 +48,10 @@ def show_aliases(code: str, _character: str | None) -> None:
 
 
 def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notations: list[str]) -> None:
-    phones = sorted(name for (name,) in database().records[f"{code}/phones.tsv"])
+    phones = [SILENCE, *(name for (name,) in database().records[f"{code}/phones.tsv"])]
     row: Row = dict(rows[key]) if key else {"notation": "", "symbol": "", "phones": "", "source": "user", "comment": ""}  # type: ignore[index]
     place = f"languages_alias_{code}_{'_'.join(key or ())}"
-    fill(place, {"notation": row["notation"] or None, "symbol": row["symbol"], "phones": row["phones"].split(), "comment": row["comment"]})
+    fill(place, {"notation": row["notation"] or None, "symbol": row["symbol"], "phones": row["phones"], "comment": row["comment"]})
     left, right = st.columns(2)
     notation = left.selectbox(
         "Notation",
@@ -61,14 +63,13 @@ def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notat
         placeholder="ipa",
     )
     symbol = right.text_input("Symbol", key=f"{place}_symbol", persist_state="session", disabled=key is not None, max_chars=40)
-    stands = st.multiselect(
+    stands = st.text_input(
         "Stands for",
-        [SILENCE, *phones],
         key=f"{place}_phones",
         persist_state="session",
-        format_func=lambda one: "_ (a pause)" if one == SILENCE else one,
-        help="Phones in their order. A phone twice in one symbol is written in the text folder.",
-    )
+        max_chars=80,
+        help=f"One phone of the language or several with spaces between them; {SILENCE} is a pause.",
+    ).split()
     comment = st.text_input("Comment", key=f"{place}_comment", persist_state="session", max_chars=200)
     edited = {
         **row,
@@ -84,6 +85,9 @@ def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notat
         with told():
             if not edited["notation"] or not edited["symbol"] or not stands:
                 raise InputError("give the notation, the symbol and what it stands for")
+            if strange := [phone for phone in stands if phone not in phones]:
+                near = get_close_matches(strange[0], phones, 1)
+                raise InputError(f"{code} has no phone {strange[0]!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
             if key is None and (edited["notation"], edited["symbol"]) in rows:  # type: ignore[operator]
                 raise InputError(f"{edited['symbol']!r} of {edited['notation']} is there already; choose it in the list to change it")
             save_one(Edited(f"{code}/aliases.tsv", (edited["notation"], edited["symbol"]), edited), note=what, place=place, what=what)

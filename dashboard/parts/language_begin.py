@@ -43,6 +43,8 @@ def step_language(mine: Work | None) -> None:
             db = database()
             if how == TYPED:
                 begin(draft_of_phones(code, records=db.records, name=name, ipa=typed, text=text or None, source=source))
+            elif not voice:
+                raise InputError("choose a voice, or type the phones of a language that has none")
             else:
                 with progress("The voice reads the text"):
                     begin(draft_of_voice(code, records=db.records, voice=voice, name=name, text=text or None, source=source))
