@@ -28,7 +28,7 @@ def state(revision: int | None) -> Database:
     return database() if revision is None else _past(revision)
 
 
-@st.cache_resource(max_entries=128, show_spinner=False)
+@st.cache_resource(max_entries=128, ttl=3600, show_spinner=False)
 def _spoken(text: str, language: str, voice: str, revision: int) -> Line:  # noqa: ARG001  (the revision decides)
     return database().say(text, language=language, voice=voice)
 
@@ -38,7 +38,7 @@ def spoken(text: str, language: str, voice: str = "") -> Line:
     return _spoken(text, language, voice, database().store.revision)
 
 
-@st.cache_resource(max_entries=64, show_spinner=False)
+@st.cache_resource(max_entries=64, ttl=3600, show_spinner=False)
 def _played(key: str, revision: int, _line: Line, character: str, past: int | None) -> Performance:  # noqa: ARG001
     db = state(past)
     who = db.character(character)

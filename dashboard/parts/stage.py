@@ -12,7 +12,7 @@ from lipdb.performance import Performance
 from lipdb.preview import preview
 
 
-@st.cache_resource(max_entries=32, show_spinner=False, hash_funcs={Performance: id})
+@st.cache_resource(max_entries=16, ttl=3600, show_spinner=False, hash_funcs={Performance: id})
 def _packed(shown: tuple[Performance, ...]) -> tuple[dict[str, Any], list[tuple[bytes, str]], tuple[Performance, ...]]:
     """What the player gets, and the files behind its links. *shown* is kept too, so that no other one gets its ids."""
     files: list[tuple[bytes, str]] = []

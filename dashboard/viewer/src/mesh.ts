@@ -79,7 +79,7 @@ export class MeshView {
   private light(): void {
     this.scene.clear();
     if (software) {
-      this.scene.add(new HemisphereLight(0xffffff, 0xb8b0a8, 3)); // about as bright as the room, without mirrors
+      this.scene.add(new HemisphereLight(0xffffff, 0xb8b0a8, 2.6)); // about as bright as the room, without mirrors
     } else {
       const maker = new PMREMGenerator(this.renderer);
       this.scene.environment = maker.fromScene(new RoomEnvironment(), 0, 0.1, 100, { size: MIRRORED }).texture;
