@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from browser import PATIENCE, free_port, serving, settled
@@ -174,3 +176,12 @@ def test_a_viewer_and_an_editor_sign_in_at_a_provider(tmp_path, chromium) -> Non
                 page.get_by_role("button", name="Sign out").click()
                 page.get_by_role("button", name="Sign in").wait_for()
             assert "anna@example.org" in app.lipdb("db", "history")
+
+
+def test_only_the_gate_opens_the_database() -> None:
+    """A page that opened it anew, or took the writable one, would go round the roles."""
+    sources = {file.relative_to(DASHBOARD): file.read_text() for folder in ("pages", "parts") for file in (DASHBOARD / folder).glob("*.py")}
+    round_the_gate = [
+        str(file) for file, text in sources.items() if re.search(r"\b_writable\b|lipdb\.open\(|Store\.(?:open|locate)\(", text)
+    ]
+    assert round_the_gate == [str(Path("parts") / "session.py")]
