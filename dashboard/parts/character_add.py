@@ -37,6 +37,7 @@ def add_form() -> None:
         with scratch() as folder, st.spinner("Reading the face"):
             path = lay_out(contents(files), folder)
             st.session_state[ADDED] = db.add_character(path, name=name.strip(), title=title.strip(), author=author)
+        st.rerun()
     if ADDED in st.session_state:
         _tell(st.session_state[ADDED])
 
