@@ -31,7 +31,7 @@ from lipdb.speech.text import LONGEST_WORD, check_script, cleaned_up, is_plain
 from lipdb.speech.voice import Reading, Voice
 
 REMEMBERED = 1 << 16
-"""Lines that a process remembers, so that one that comes again in another part costs nothing."""
+"""Lines that a process looks back on: one that it has met twice among them costs nothing."""
 LONGEST_REMEMBERED = 512
 LONGEST_PIECE = 2000
 """Characters that a voice is given at once: some need time by the square of them."""
@@ -80,6 +80,7 @@ class Speaker:
         self._code = {SILENCE: 0}
         self._words: dict[str | tuple[str, ...], array[int]] = {}
         self._lines: dict[str, Said] = {}
+        self._met: set[int] = set()
 
     def say(self, text: str) -> Said:
         """*text* as the voice says it; no codes when it can't."""
@@ -118,18 +119,26 @@ class Speaker:
         codes, foreign = self._spelled(asked) if isinstance(asked, list) else self._read(asked)
         said = Said(codes, _remarks(text, foreign)) if any(codes) else Said(array("H"), (NO_WORDS,))
         if len(text) <= LONGEST_REMEMBERED:
-            if len(self._lines) >= REMEMBERED:
-                self._lines.clear()
-            self._lines[text] = said
+            self._remember(text, said)
         return said
 
+    def _remember(self, text: str, said: Said) -> None:
+        """Keep what comes a second time: most lines never do, and to keep them all costs more than it saves."""
+        if len(self._met) >= REMEMBERED:
+            self._met.clear()
+            self._lines.clear()
+        mark = hash(text)
+        if mark in self._met:
+            self._lines[text] = said
+        self._met.add(mark)
+
     def _spelled(self, phrases: list[str]) -> tuple[array[int], int]:
-        codes, switches = array("H", (0,)), 0
+        codes, switches, known = array("H", (0,)), 0, self._words.get
         for phrase in phrases:
             bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
             switches += found
             for word in bare.split():
-                codes.extend(self._words.get(word) or self._learn(word))
+                codes.extend(known(word) or self._learn(word))
             codes.append(0)
         return codes, switches
 
