@@ -90,7 +90,7 @@ def test_what_most_other_languages_do_is_proposed_before_the_rule(make, records)
     rule = proposed()
     assert rule.common == ("r",)
     two = proposed(aa=["d"], bb=["d"])
-    assert (two.common, two.review) == (("d",), False)
+    assert (two.common, two.second, two.review) == (("d",), ("r",), False)
     assert two.reason.startswith("like aa, bb; by the rule r: ")
     assert proposed(aa=["d"]) == rule  # one language may be a special case
     assert proposed(aa=["d"], bb=["d", "generated"]) == rule  # a rule is no second voice

@@ -200,8 +200,10 @@ def _save_text(mine: Work, own: dict) -> None:  # type: ignore[type-arg]
     if st.button("Write the folder", type="primary", icon=":material/folder:", key=mine.key("save_text"), disabled=bool(mine.files)):
         with told():
             db, _ = writable()
-            ready_workspace(folder, db.store)
-            mine.files = save_text(code, own, folder)
+            made = ready_workspace(folder, db.store)
+            # A workspace that was just made from the database has the language already if it was loaded first.
+            there = sorted((folder / code).glob("*.tsv")) if made else []
+            mine.files = there or save_text(code, own, folder)
             st.rerun()
     st.download_button("Download as zip", zipped(own), f"{code}.zip", on_click="ignore", key=mine.key("zip"), icon=":material/download:")
     if mine.files:

@@ -63,12 +63,13 @@ def judged(segment: str, records: Records, known: Mapping[str, Precedent]) -> Pr
     if precedent is None:
         return rule
     why = rule.reason.partition(f"; {REVIEW}")[0]
-    confidence, reason = max(rule.confidence, precedent.confidence), f"{why}; {precedent}"
+    confidence, reason, second = max(rule.confidence, precedent.confidence), f"{why}; {precedent}", rule.second
     if precedent.common != rule.common:
         confidence, reason = precedent.confidence, f"{precedent}; by the rule {' '.join(rule.common) or 'nothing'}: {why}"
+        second = rule.common
     if not precedent.clear:
         reason += f"; {REVIEW} languages differ"
-    return replace(rule, common=precedent.common, confidence=confidence, reason=reason, review=not precedent.clear)
+    return replace(rule, common=precedent.common, confidence=confidence, reason=reason, second=second, review=not precedent.clear)
 
 
 def _agreed(by: Mapping[str, str]) -> Precedent | None:

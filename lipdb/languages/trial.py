@@ -55,7 +55,12 @@ class Placed:
 
     def to_row(self) -> dict[str, Any]:
         """Plain data for a listing."""
-        return {"kind": "error" if self.error else "note", "table": self.table, "row": self.row, "what": self.finding.message}
+        return {
+            "kind": "error" if self.error else "note",
+            "table": self.table,
+            "row": self.row,
+            "what": self.finding.message.replace(" (--json has all)", ""),
+        }
 
 
 @dataclass(frozen=True, slots=True)
