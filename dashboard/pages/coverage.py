@@ -167,7 +167,7 @@ def show_to_do(now: Chosen) -> None:
     if not found:
         st.success("Nothing is left to draw: every pair that occurs has authored or fitted curves.", icon=":material/done_all:")
         return
-    left, right = st.columns([3, 2], gap="medium")
+    left, right = st.columns([2, 1], gap="medium")
     rows = pd.DataFrame([gap.to_row() for gap in found])
     rows["done"] = [f"{sum(one.curve.origin in BY_HAND for one in gap.use.moving)} of {len(gap.use.moving)}" for gap in found]
     with left:
