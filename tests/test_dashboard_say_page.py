@@ -1,12 +1,15 @@
 """The front page without a browser: what is asked, what is shown, what is said when something is wrong."""
 
 import io
+import json
 import os
 import wave
 from pathlib import Path
 
 import pytest
 from streamlit.testing.v1 import AppTest
+
+import lipdb
 
 DASHBOARD = Path(__file__).resolve().parents[1] / "dashboard"
 PATIENCE = 60
@@ -111,6 +114,21 @@ def test_a_film_is_made_on_request(page) -> None:
     page.button(key="say_draw").click().run()
     assert messages(page) == []
     assert [button.proto.label for button in page.get("download_button")] == ["Download line.mp4"]
+
+
+def test_a_character_stands_beside_itself_as_it_was_before_an_edit(start) -> None:
+    with lipdb.open() as db:
+        curve = db.book("facefx", language="en").find("l", "ow", "W").curve
+        with db.edit(author="anna", note="Round earlier") as changes:
+            changes.put("curves/facefx.tsv", {**curve.row(("l", "ow", "W")), "keys": "0:0 0.3:0.9 1:0"})
+    page = start()
+    beside = page.selectbox(key="say_beside")
+    assert "as it was at revision 1" in beside.options
+    beside.set_value(("robin", 1)).run()
+    assert messages(page) == []
+    (player,) = page.get("bidi_component")
+    titles = [face["title"] for face in json.loads(player.proto.json)["faces"]]
+    assert titles == ["Robin, a human head", "Robin, a human head at revision 1"]
 
 
 def grid(phone: str = "m") -> bytes:

@@ -29,7 +29,7 @@ def example(language: str) -> str:
 
 def voice_title(name: str) -> str:
     """A voice as people read it: ``en-us+f2`` is *en-us, f2*."""
-    return name.replace("+", ", ") or "none: in silence"
+    return name.replace("+", ", ")
 
 
 def ask() -> tuple[Line | None, str, Beside | None]:
