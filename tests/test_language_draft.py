@@ -234,6 +234,15 @@ def test_saved_to_the_database_it_speaks_at_once_with_each_row_as_it_was_made(pa
     assert db.store.revision == number
 
 
+def test_kept_as_text_and_in_the_database_the_rows_are_the_same(palu, db, tmp_path, monkeypatch) -> None:
+    palu.decide("ɸ", common=["bmp"], example="Fafu", spelt="f")
+    folder = copy_workspace(tmp_path / "text")
+    save_text("qpa", palu.tables(db.records, author="anna"), folder)
+    monkeypatch.setattr("lipdb.languages.draft._now", lambda: "2030-01-01T00:00:00Z")
+    save_rows(flat(palu.tables(db.records, author="anna")), db.store, author="anna", note="", seen=db.store.revision)
+    assert read_folder(folder) == db.records
+
+
 def test_a_viewer_can_t_save(palu, db) -> None:
     with pytest.raises(LipdbError, match="for looking only"):
         save_rows(flat(palu.tables(db.records, author="")), db.read_only().store, author="anna", note="", seen=db.store.revision)

@@ -174,10 +174,10 @@ def _rows(mine: Merging) -> None:
         column_config={
             "take": st.column_config.SelectboxColumn("take", options=[LEFT, RIGHT], required=True, width=80),
             "what": st.column_config.TextColumn(width=80),
-            "table": st.column_config.TextColumn(width=150),
-            "row": st.column_config.TextColumn(width=150),
-            LEFT: st.column_config.TextColumn(width=360),
-            RIGHT: st.column_config.TextColumn(width=360),
+            "table": st.column_config.TextColumn(width=130),
+            "row": st.column_config.TextColumn(width=100),
+            LEFT: st.column_config.TextColumn(width=215),
+            RIGHT: st.column_config.TextColumn(width=215),
         },
     )
     if len(rows) > MOST_ROWS:

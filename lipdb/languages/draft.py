@@ -25,10 +25,14 @@ TYPED_SOURCE = "lipdb"
 _NAME = re.compile(r"[a-z][a-z0-9]{0,7}")
 
 
+def _now() -> str:
+    return datetime.now(UTC).strftime(TIME_FORMAT)
+
+
 @dataclass
 class Entry:
     """A phone of the draft: the *phone* as proposed, and as it stands: its *common* phones and *example*, what it is *spelt* in
-    texts for the silent voice, the person's *note*, and whether the person has *decided* it.
+    texts for the silent voice, the person's *note*, and whether and at what *time* (UTC) the person has *decided* it.
     """
 
     phone: Phone
@@ -37,6 +41,7 @@ class Entry:
     spelt: str = ""
     note: str = ""
     decided: bool = False
+    time: str = ""
 
     @property
     def doubtful(self) -> bool:
@@ -51,7 +56,10 @@ class Entry:
 
 @dataclass
 class Draft:
-    """A language on its way: its *row*, its phones by name, *sentences* of *source*, common phones of its own, and *notes*."""
+    """A language on its way: its *row*, its phones by name, *sentences* of *source*, common phones of its own, and *notes*.
+
+    It was begun at *time* (UTC), so the same draft gives the same rows wherever and whenever it is kept.
+    """
 
     row: Row
     entries: dict[str, Entry]
@@ -60,6 +68,7 @@ class Draft:
     source: str = USER_SOURCE
     common: dict[str, Row] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    time: str = field(default_factory=_now)
 
     @property
     def code(self) -> str:
@@ -90,7 +99,7 @@ class Draft:
             raise InputError(f"{name}: give a word in which it is heard")
         entry = self.entries[name]
         entry.common, entry.example, entry.note, entry.decided = tuple(common), " ".join(example.split()), " ".join(note.split()), True
-        entry.spelt = "".join(spelt.split())
+        entry.spelt, entry.time = "".join(spelt.split()), _now()
 
     def add(self, entries: Iterable[Entry]) -> list[str]:
         """Add those of *entries* that are not there yet; their names."""
@@ -130,8 +139,7 @@ class Draft:
     def tables(self, records: Records, *, author: str) -> dict[str, dict[Key, Row]]:
         """The rows of the language: its own tables, and those that it adds to ``common.tsv``; without *author* nobody's yet."""
         author = author or NOBODY
-        time = datetime.now(UTC).strftime(TIME_FORMAT)
-        phones = [self._signed(row, author=author, time=time) for row in phone_rows(self._kept(), author=author, time=time)]
+        phones = [self._signed(row, author=author) for row in phone_rows(self._kept(), author=author, time=self.time)]
         cells: dict[str, Iterable[dict[str, str]]] = {
             "language": [self.row],
             "phones": phones,
@@ -151,7 +159,7 @@ class Draft:
         kept = tuple(entry.phone for name, entry in sorted(self.entries.items()))
         return Proposed(kept, self.proposed.readings, self.proposed.strange)
 
-    def _signed(self, row: dict[str, str], *, author: str, time: str) -> dict[str, str]:
+    def _signed(self, row: dict[str, str], *, author: str) -> dict[str, str]:
         """*row* as it stands: a person's where one decided it, else the rule's."""
         entry = self.entries[row["phone"]]
         row = {**row, "common": " ".join(entry.common), "example": entry.example}
@@ -161,7 +169,7 @@ class Draft:
             return row
         proposed = f"Proposed {' '.join(entry.phone.proposal.common)}" if entry.changed else "Proposed by rule, reviewed"
         comment = ". ".join(filter(None, (entry.note.rstrip("."), proposed, entry.phone.reason)))
-        signature = {"origin": "authored", "source": USER_SOURCE, "licence": USER_LICENCE, "author": author, "time": time}
+        signature = {"origin": "authored", "source": USER_SOURCE, "licence": USER_LICENCE, "author": author, "time": entry.time}
         return {**row, **signature, "comment": comment}
 
     def _aliases(self, records: Records) -> Iterable[dict[str, str]]:
