@@ -1,0 +1,96 @@
+"""The page Coverage in a real browser: from the matrix and the list into Curves and back; a corpus and a script uploaded."""
+
+import json
+import re
+
+import pytest
+from browser import settled
+
+STORY = "Bob may find five blue whales.\n你好\n" * 50
+
+
+@pytest.fixture
+def coverage(app, page):
+    """The page, loaded anew by somebody with a name."""
+    page.goto(f"{app.url}/coverage")
+    page.get_by_text("Colour shows").wait_for()
+    field = page.get_by_role("textbox", name="Your name")
+    field.fill("anna")
+    field.press("Enter")
+    settled(page)
+    return page
+
+
+def view(page, name: str) -> None:
+    page.get_by_test_id("stButtonGroup").first.get_by_text(name, exact=True).click()
+    settled(page)
+
+
+def back(page) -> None:
+    """To this page by the side bar, as people go."""
+    page.get_by_role("link", name="Coverage").click()
+    page.get_by_role("combobox", name="Languages").wait_for()
+    settled(page)
+
+
+def click_until_opened(page, target, *, x: float, y: float) -> str:
+    """Click a drawing until Curves opens, and tell which pair; what is just being drawn anew hears no click."""
+    target.wait_for()
+    for turn in range(20):
+        if target.is_visible():
+            box = target.bounding_box()
+            left, top = x * box["width"] if x < 1 else x, y * box["height"] if y < 1 else y
+            # Some pixels further each time, for there are gaps between cells.
+            page.mouse.click(box["x"] + left + turn % 5, box["y"] + top + turn % 5)
+        for _ in range(30):
+            page.wait_for_timeout(100)
+            if found := re.search("/curves.*pair=([^&]*)", page.url):
+                return found[1]
+    raise AssertionError("no click opened a pair")
+
+
+def test_a_click_into_the_matrix_opens_the_pair_and_the_page_comes_back_as_it_was(coverage) -> None:
+    coverage.get_by_test_id("stButtonGroup").nth(1).get_by_text("Origin", exact=True).click()
+    coverage.get_by_text("are pale").wait_for()
+    drawn = coverage.get_by_test_id("stVegaLiteChart").locator("canvas, svg").first
+    assert re.fullmatch("[a-z_]+-[a-z_]+", click_until_opened(coverage, drawn, x=0.6, y=0.5))
+    back(coverage)
+    coverage.get_by_text("are pale").wait_for()
+
+
+def test_a_click_into_the_list_opens_what_is_needed_most(coverage) -> None:
+    view(coverage, "To do")
+    coverage.get_by_text("After the next 10").wait_for()
+    grid = coverage.get_by_test_id("stDataFrame").first.locator("canvas").first
+    assert click_until_opened(coverage, grid, x=40, y=52) == "ah-d"
+
+
+def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> None:
+    view(coverage, "Corpora")
+    file = {"name": "../My story.txt", "mimeType": "text/plain", "buffer": STORY.encode()}
+    coverage.locator("input[type=file]").set_input_files(file)
+    coverage.get_by_text("My story.txt").wait_for()
+    coverage.get_by_role("button", name="Count", exact=True).click()
+    coverage.get_by_text("pairs in 50 of 100 lines").wait_for()
+    (scan,) = json.loads(app.lipdb("coverage", "list", "--json"))
+    assert (scan["language"], scan["lines"], scan["spoken"], scan["state"]) == ("en", 100, 50, "current")
+    assert re.fullmatch(r"[0-9a-f]{32}\.txt", scan["corpus"][0].split("/")[-1])
+    assert "story" not in scan["path"]
+    coverage.get_by_text(re.compile(r"en: .*My story\.txt \(exact, .* pairs\)")).wait_for()
+    view(coverage, "Pairs")
+    coverage.get_by_text(re.compile(r"^\d\d of 483$")).wait_for()
+
+
+def test_a_script_stays_with_its_visitor(app, coverage, chromium) -> None:
+    view(coverage, "Your script")
+    coverage.locator("input[type=file]").set_input_files({"name": "scene.txt", "mimeType": "text/plain", "buffer": b"Bob!\n\nMama"})
+    coverage.get_by_text("This scene: 6 pairs, 0 authored or fitted").wait_for()
+    coverage.locator("input[type=file]").set_input_files({"name": "scene.txt", "mimeType": "text/plain", "buffer": b"\0\1\2"})
+    coverage.get_by_text("save it as plain text in UTF-8").wait_for()
+    other = chromium.new_context().new_page()
+    other.goto(f"{app.url}/coverage")
+    other.get_by_text("Colour shows").wait_for()
+    view(other, "Your script")
+    other.get_by_text("Paste a scene, or upload it").wait_for()
+    assert other.get_by_label("Script", exact=True).input_value() == ""
+    other.context.close()
