@@ -162,7 +162,9 @@ with shown_errors():
     changes = changes_of(one.number)
     pairs = changed_pairs(changes)
     if pairs and one.number > 1:
-        curves, rows = st.tabs([f"Curves of {len(pairs)} pair{'s' * (len(pairs) > 1)}", f"All {len(changes)} rows"])
+        curves, rows = st.tabs(
+            [f"Curves of {len(pairs)} pair{'s' * (len(pairs) > 1)}", f"All {len(changes)} rows" if len(changes) > 1 else "The row"]
+        )
         with curves:
             show_curves(one, pairs, wanted)
         with rows:

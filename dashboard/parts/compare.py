@@ -18,10 +18,12 @@ def draw_versions(poses: Mapping[str, tuple[Curve, Curve]], old: str, new: str) 
     """A small chart a pose: the *old* version dashed, the *new* one drawn through; the time is that of the pair, 0 to 1."""
     columns = st.columns(COLUMNS)
     for k, (pose, versions) in enumerate(poses.items()):
-        columns[k % COLUMNS].altair_chart(_chart(pose, dict(zip((old, new), versions, strict=True))), width="stretch")
+        column = columns[k % COLUMNS]
+        column.write(f"**{pose}**")
+        column.altair_chart(_chart(dict(zip((old, new), versions, strict=True))), width="stretch")
 
 
-def _chart(pose: str, versions: Mapping[str, Curve]) -> alt.Chart:
+def _chart(versions: Mapping[str, Curve]) -> alt.Chart:
     points = [
         {"time": time, "weight": weight, "version": name, "order": k}
         for name, curve in versions.items()
@@ -29,7 +31,7 @@ def _chart(pose: str, versions: Mapping[str, Curve]) -> alt.Chart:
     ]
     names = list(versions)
     return (
-        alt.Chart(pd.DataFrame(points), title=pose, height=240)
+        alt.Chart(pd.DataFrame(points), height=200)
         .mark_line(point=alt.OverlayMarkDef(size=40), strokeWidth=2)
         .encode(
             x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
