@@ -15,7 +15,18 @@ from parts.session import database, sign_in_configured, writable
 from lipdb.curated.tsv import Records
 from lipdb.curated.zipped import read_zip
 from lipdb.errors import InputError
-from lipdb.languages.compare import LEFT, RIGHT, Difference, Place, changed_rows, chosen_rows, completed, differences, read_version
+from lipdb.languages.compare import (
+    LEFT,
+    RIGHT,
+    Difference,
+    Place,
+    changed_rows,
+    chosen_rows,
+    completed,
+    differences,
+    read_version,
+    require_version,
+)
 from lipdb.languages.keep import save_merged, save_rows
 from lipdb.paths import expanded, workspace_dir
 
@@ -67,12 +78,24 @@ def _version(column: st.delta_generator.DeltaGenerator, label: str, side: str, k
         return state(int(number)).records
     if kind == FOLDER:
         path = column.text_input("Folder", key=f"languages_{side}_folder", persist_state="session", placeholder="/home/anna/pl")
-        return read_version(expanded(path.strip())) if path.strip() else None
+        return _read(expanded(path.strip())) if path.strip() else None
     if kind == ZIP:
         return _uploaded(column, side)
     if kind == WORKSPACE:
-        return read_version(_workspace())
+        return _read(_workspace())
     return database().records if kind == NOW else None
+
+
+@st.cache_resource(max_entries=8, show_spinner=False)
+def _text(folder: Path, mark: tuple[tuple[str, int, int], ...]) -> Records:  # noqa: ARG001  (the mark decides)
+    return read_version(folder)
+
+
+def _read(folder: Path) -> Records:
+    """The records in *folder*, read again when one of its files has changed."""
+    require_version(folder)
+    files = ((file, file.stat()) for file in sorted(folder.rglob("*.tsv")))
+    return _text(folder, tuple((str(file), stat.st_mtime_ns, stat.st_size) for file, stat in files))
 
 
 def _workspace() -> Path:
@@ -102,7 +125,7 @@ def _compare(left: Records, right: Records, base: Records | None) -> None:
         # Choices for rows that still differ in the same way stay.
         same = {one.place for one in found} & {one.place for one in mine.found}
         choices = {place: side for place, side in mine.choices.items() if place in same}
-        text = read_version(_workspace()) if _workspace().is_dir() else {}
+        text = _read(_workspace()) if _workspace().is_dir() else {}
         mine = Merging(mark, found, choices, database().store.revision, text, mine.version + 1)
         st.session_state["languages_merging"] = mine
     if not found:

@@ -54,14 +54,20 @@ def read_version(folder: Path) -> Records:
 
     Raises `InputError` when it is none of these, `PhonesetError` with all findings when the text is wrong.
     """
-    own = (folder / "language.tsv").is_file()
-    # A folder that is none of these may hold a whole disk.
-    if not own and not (folder / "common.tsv").is_file() and not any(folder.glob("*/language.tsv")):
-        raise InputError(f"{folder}: no curated text there; give a folder with common.tsv, with folders of languages, or a language's own")
+    own = require_version(folder)
     records, findings = scan_folder(folder.resolve().parent, below=folder.resolve().name) if own else scan_folder(folder)
     if findings:
         raise PhonesetError("\n".join(str(folder / str(one)) for one in findings))
     return records
+
+
+def require_version(folder: Path) -> bool:
+    """Whether *folder* is a language's own. Raises `InputError` when there is no curated text in it."""
+    own = (folder / "language.tsv").is_file()
+    # A folder that is none of these may hold a whole disk.
+    if not own and not (folder / "common.tsv").is_file() and not any(folder.glob("*/language.tsv")):
+        raise InputError(f"{folder}: no curated text there; give a folder with common.tsv, with folders of languages, or a language's own")
+    return own
 
 
 def completed(side: Records, other: Records) -> Records:
