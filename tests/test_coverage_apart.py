@@ -8,8 +8,8 @@ import pytest
 
 import lipdb
 from lipdb.coverage.apart import answer, kept, scan_apart
-from lipdb.coverage.named import named_frequency
 from lipdb.coverage.register import scan
+from lipdb.coverage.reports.named import named_frequency
 from lipdb.coverage.result import read_result
 from lipdb.errors import LipdbError, OutputError
 from lipdb.progress import reported

@@ -12,17 +12,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lipdb.coverage.align import align
-from lipdb.coverage.codes import UNKNOWN, Codes
-from lipdb.coverage.context import CONSONANT, KINDS, PAUSE, VOWEL, Context
 from lipdb.coverage.counts import Counts, Lines
-from lipdb.coverage.error import distance
 from lipdb.coverage.exact import ExactCounter
-from lipdb.coverage.fast import FastCounter, fast_counter
-from lipdb.coverage.learn import learn
-from lipdb.coverage.lexicon import Lexicon
-from lipdb.coverage.lexicon_files import join_files, keep, open_lexicon
-from lipdb.coverage.words import cut, keys_of
+from lipdb.coverage.fast.align import align
+from lipdb.coverage.fast.codes import UNKNOWN, Codes
+from lipdb.coverage.fast.context import CONSONANT, KINDS, PAUSE, VOWEL, Context
+from lipdb.coverage.fast.counter import FastCounter, fast_counter
+from lipdb.coverage.fast.error import distance
+from lipdb.coverage.fast.learn import learn
+from lipdb.coverage.fast.lexicon import Lexicon
+from lipdb.coverage.fast.lexicon_files import join_files, keep, open_lexicon
+from lipdb.coverage.fast.words import cut, keys_of
 from lipdb.curated.folder import read_folder
 from lipdb.errors import InputError
 from lipdb.paths import phonesets_dir
@@ -186,7 +186,7 @@ def test_counts_of_parts_add_up_to_counts_of_the_whole(texts: list[str], documen
 def test_documents_are_counted_alike_one_by_one_and_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     given = lines(*TEXT, document=[0, 0, 1, 1, 2])
     small = counter(Letters()).count(given)
-    monkeypatch.setattr("lipdb.coverage.word_pairs._LARGE", 0)
+    monkeypatch.setattr("lipdb.coverage.fast.word_pairs._LARGE", 0)
     assert counter(Letters()).count(given) == small
 
 

@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lipdb
-from lipdb.coverage.compare import compare
-from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.gaps import gaps
-from lipdb.coverage.named import named_frequency, read_frequency
-from lipdb.coverage.report import Summary, by_curve, plot, ranked
-from lipdb.coverage.select import select
-from lipdb.coverage.sentences import sentences_of
+from lipdb.coverage.reports.compare import compare
+from lipdb.coverage.reports.frequency import Frequency
+from lipdb.coverage.reports.gaps import gaps
+from lipdb.coverage.reports.named import named_frequency, read_frequency
+from lipdb.coverage.reports.report import Summary, by_curve, plot, ranked
+from lipdb.coverage.reports.select import select
+from lipdb.coverage.reports.sentences import sentences_of
 from lipdb.errors import InputError, OutputError
 
 PAIRS = st.tuples(st.sampled_from("abcd_"), st.sampled_from("abcd_"))

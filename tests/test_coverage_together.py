@@ -5,12 +5,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lipdb
-from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.gaps import Outlook, gaps, outlook
-from lipdb.coverage.named import named_frequency
 from lipdb.coverage.register import scan
-from lipdb.coverage.script import decoded, read_script
-from lipdb.coverage.several import balanced, summed, together
+from lipdb.coverage.reports.frequency import Frequency
+from lipdb.coverage.reports.gaps import Outlook, gaps, outlook
+from lipdb.coverage.reports.named import named_frequency
+from lipdb.coverage.reports.script import decoded, read_script
+from lipdb.coverage.reports.several import balanced, summed, together
 from lipdb.errors import InputError
 from lipdb.progress import reported
 

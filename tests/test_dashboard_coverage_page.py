@@ -78,7 +78,9 @@ def draw(db, table: str, *pairs: tuple[str, str], origin: str = "authored") -> N
 def counted(db, folder: Path, text: str, *, language: str = "en", title: str = "A story") -> Any:
     file = folder / "story.txt"
     file.write_text(text)
-    return scan(db, [str(file)], language=language, output=folder / "story.parquet", scheduler="threads", folder=folder / "kept", title=title).scan
+    return scan(
+        db, [str(file)], language=language, output=folder / "story.parquet", scheduler="threads", folder=folder / "kept", title=title
+    ).scan
 
 
 def test_without_a_scan_the_example_sentences_are_counted(db) -> None:

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from lipdb.cli import cli
-from lipdb.coverage.frequency import Frequency
+from lipdb.coverage.reports.frequency import Frequency
 from lipdb.errors import InputError
 from lipdb.languages.reuse import reuse
 

@@ -15,11 +15,11 @@ from parts.pairs_table import keep, one_of, pairs_table
 from parts.script import ask_script
 from parts.session import database, shown_errors
 
-from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.gaps import MINUTES, gaps, outlook
-from lipdb.coverage.named import named_frequency
-from lipdb.coverage.report import LEVELS, Summary, by_curve, ranked
-from lipdb.coverage.several import balanced, summed, together
+from lipdb.coverage.reports.frequency import Frequency
+from lipdb.coverage.reports.gaps import MINUTES, gaps, outlook
+from lipdb.coverage.reports.named import named_frequency
+from lipdb.coverage.reports.report import LEVELS, Summary, by_curve, ranked
+from lipdb.coverage.reports.several import balanced, summed, together
 from lipdb.decisions import BY_HAND, PairUse
 from lipdb.schedule import SILENCE
 

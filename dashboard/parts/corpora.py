@@ -9,11 +9,11 @@ from pathlib import Path
 import streamlit as st
 from parts.session import database
 
-from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.named import read_frequency
 from lipdb.coverage.register import CURRENT, MISSING, state_of
+from lipdb.coverage.reports.frequency import Frequency
+from lipdb.coverage.reports.named import read_frequency
+from lipdb.coverage.reports.script import Script, read_script
 from lipdb.coverage.result import read_result
-from lipdb.coverage.script import Script, read_script
 from lipdb.store.scans import Scan
 
 SENTENCES = "example sentences"

@@ -9,9 +9,9 @@ import pandas as pd
 import streamlit as st
 from parts.pairs import ORIGIN_COLOURS
 
-from lipdb.coverage.frequency import Frequency
-from lipdb.coverage.gaps import Gap
-from lipdb.coverage.report import ranked
+from lipdb.coverage.reports.frequency import Frequency
+from lipdb.coverage.reports.gaps import Gap
+from lipdb.coverage.reports.report import ranked
 from lipdb.curves.lookup import GENERATED, NEAREST
 from lipdb.decisions import ORIGINS, PairUse
 

@@ -12,8 +12,8 @@ from parts.pairs import open_pair
 from parts.pairs_table import keep, pairs_table
 from parts.session import database
 
-from lipdb.coverage.gaps import gaps
-from lipdb.coverage.script import Script, decoded, read_script
+from lipdb.coverage.reports.gaps import gaps
+from lipdb.coverage.reports.script import Script, decoded, read_script
 from lipdb.decisions import PairUse
 from lipdb.errors import InputError
 from lipdb.progress import reported

@@ -10,7 +10,7 @@ import click
 from lipdb.cli.options import Options, json_option, print_json, print_listing, progress_bar
 
 if TYPE_CHECKING:
-    from lipdb.coverage.frequency import Frequency
+    from lipdb.coverage.reports.frequency import Frequency
     from lipdb.database import Database
 
 LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
@@ -42,7 +42,7 @@ def report(
       lipdb coverage report stories.parquet --top 0 --json
       lipdb coverage report stories.parquet --plot figure2.png
     """
-    from lipdb.coverage import report as reports
+    from lipdb.coverage.reports import report as reports
 
     with options.open() as db:
         name, frequency = _frequency(db, scan, language, silence=silence)
@@ -86,7 +86,7 @@ def gaps(
     Example:
       lipdb coverage gaps stories.parquet --character crab --top 10
     """
-    from lipdb.coverage.gaps import gaps as find_gaps
+    from lipdb.coverage.reports.gaps import gaps as find_gaps
 
     with options.open() as db:
         name, frequency = _frequency(db, scan, language, silence=silence)
@@ -117,8 +117,8 @@ def select(options: Options, /, corpus: tuple[str, ...], language: str, most: in
     Example:
       lipdb coverage select stories.txt --sentences 50 > script.txt
     """
-    from lipdb.coverage.select import select as choose
-    from lipdb.coverage.sentences import sentences_of
+    from lipdb.coverage.reports.select import select as choose
+    from lipdb.coverage.reports.sentences import sentences_of
 
     with options.open() as db, progress_bar():
         sentences = sentences_of(corpus, db.voice(language), db.phoneset(language), silence=silence)
@@ -151,8 +151,8 @@ def compare(options: Options, /, first: str, second: str, top: int, silence: boo
       lipdb coverage compare stories.parquet xu2013
       lipdb coverage compare monday.parquet tuesday.parquet --json
     """
-    from lipdb.coverage.compare import compare as differ
-    from lipdb.coverage.named import named_frequency
+    from lipdb.coverage.reports.compare import compare as differ
+    from lipdb.coverage.reports.named import named_frequency
 
     with options.open() as db:
         told = differ(*(named_frequency(db, name, silence=silence) for name in (first, second))).to_json()
@@ -172,7 +172,7 @@ def compare(options: Options, /, first: str, second: str, top: int, silence: boo
 
 def _frequency(db: Database, scan: str | None, language: str, *, silence: bool) -> tuple[str, Frequency]:
     """The frequency that *scan* names, or the newest scan of *language*; and what to call it."""
-    from lipdb.coverage.named import named_frequency, newest_scan
+    from lipdb.coverage.reports.named import named_frequency, newest_scan
 
     name = scan or newest_scan(db, language)
     return name, named_frequency(db, name, silence=silence)

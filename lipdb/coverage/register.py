@@ -115,7 +115,7 @@ def _written(
     }
 
     def error(sample: pa.Table) -> dict[str, Any]:
-        from lipdb.coverage.error import distance
+        from lipdb.coverage.fast.error import distance
 
         found = distance(sample, phoneset, counter.notation)
         return {"error": {"total_variation": found.value, "spread": found.spread, "pairs": found.pairs}} if found else {}
@@ -135,8 +135,8 @@ def counter_of(db: Database, language: str, mode: str, paths: Sequence[str] = ()
         return ExactCounter(voice)
     if mode != FAST:
         raise InputError(f"there is no mode {mode!r} of counting; there are {', '.join(MODES)}")
-    from lipdb.coverage.fast import fast_counter
-    from lipdb.coverage.lexicon_files import lexicon_folder
+    from lipdb.coverage.fast.counter import fast_counter
+    from lipdb.coverage.fast.lexicon_files import lexicon_folder
 
     sentences = [row["sentence"] for row in db.records.get(f"{language}/sentences.tsv", {}).values()]
     size = sum(one.size for one in sources(paths) if isinstance(one, Source))

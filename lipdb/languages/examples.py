@@ -10,7 +10,7 @@ from lipdb.languages.sample import listen
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
-    from lipdb.coverage.frequency import Pair
+    from lipdb.coverage.reports.frequency import Pair
     from lipdb.database import Database
     from lipdb.line import Line
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import Any
 
-from lipdb.coverage.frequency import Frequency, Pair
+from lipdb.coverage.reports.frequency import Frequency, Pair
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError
 from lipdb.phones.refined import Kinds

@@ -9,8 +9,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipdb.coverage.frequency import Frequency, Pair
-from lipdb.coverage.named import DELIMITERS, read_frequency
+from lipdb.coverage.reports.frequency import Frequency, Pair
+from lipdb.coverage.reports.named import DELIMITERS, read_frequency
 from lipdb.languages.sample import Sample, listen, symbols_of
 from lipdb.languages.text import read_text, sentences_of
 from lipdb.phones.phoneset import PhoneSet

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipdb.coverage.frequency import Frequency
+from lipdb.coverage.reports.frequency import Frequency
 from lipdb.errors import InputError
 
 if TYPE_CHECKING:

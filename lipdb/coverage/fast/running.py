@@ -10,9 +10,9 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from lipdb.coverage.fast.lexicon import Lexicon, Masks, mask_of
+from lipdb.coverage.fast.words import Places, cut, spans_of
 from lipdb.coverage.findings import NO_WORDS, REASONS
-from lipdb.coverage.lexicon import Lexicon, Masks, mask_of
-from lipdb.coverage.words import Places, cut, spans_of
 
 FLOWS, PAUSES, ENDS = range(3)
 """What the gap behind a word says: go on, pause, the line ends."""

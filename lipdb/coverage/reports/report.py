@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lipdb.coverage.frequency import Frequency
+from lipdb.coverage.reports.frequency import Frequency
 from lipdb.errors import MissingToolError, OutputError
 from lipdb.files import whole_file
 from lipdb.schedule import SILENCE

@@ -8,7 +8,7 @@ from itertools import pairwise
 from lipdb.coverage.corpus import ALIGNED, Source, parts, sources
 from lipdb.coverage.counts import Counts, Lines
 from lipdb.coverage.cut import BLOCK
-from lipdb.coverage.frequency import Pair
+from lipdb.coverage.reports.frequency import Pair
 from lipdb.coverage.resolve import units_of
 from lipdb.coverage.speaker import Speaker
 from lipdb.errors import InputError

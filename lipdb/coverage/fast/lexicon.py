@@ -1,7 +1,7 @@
 """What a voice says to each written word by itself, asked once.
 
 A lexicon holds nothing but a voice's answers, so no result depends on what was in it before. Its answers are kept between
-scans (`lipdb.coverage.lexicon_files`).
+scans (`lipdb.coverage.fast.lexicon_files`).
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from lipdb.coverage.codes import UNKNOWN, Codes, Keys
+from lipdb.coverage.fast.codes import UNKNOWN, Codes, Keys
+from lipdb.coverage.fast.readings import Numbers, Readings
+from lipdb.coverage.fast.words import Words, each_a_word
 from lipdb.coverage.findings import NO_WORDS, REASONS
-from lipdb.coverage.readings import Numbers, Readings
 from lipdb.coverage.speaker import Speaker
-from lipdb.coverage.words import Words, each_a_word
 from lipdb.schedule import SILENCE
 from lipdb.speech.voice import Voice
 

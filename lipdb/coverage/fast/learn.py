@@ -1,6 +1,6 @@
 """Learn what running speech does to words from sentences that the voice says whole.
 
-Each sentence is laid beside the readings of its words alone (`lipdb.coverage.align`), which gives every word the labels that
+Each sentence is laid beside the readings of its words alone (`lipdb.coverage.fast.align`), which gives every word the labels that
 were said for it. Pauses are compared with what the gaps say: there are words before which the voice pauses without a mark
 ("and" in a long sentence), and words behind which it does not pause in spite of one ("Mr. Smith").
 
@@ -17,13 +17,13 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from lipdb.coverage.align import align
-from lipdb.coverage.context import CONSONANT, PAUSE, VOWEL, Context
-from lipdb.coverage.heard import SURE, Evidence, Heard
-from lipdb.coverage.lexicon import BREAK, Lexicon
-from lipdb.coverage.readings import Numbers, Readings
-from lipdb.coverage.running import PAUSES, Running, running
-from lipdb.coverage.words import Places, cut, is_character
+from lipdb.coverage.fast.align import align
+from lipdb.coverage.fast.context import CONSONANT, PAUSE, VOWEL, Context
+from lipdb.coverage.fast.heard import SURE, Evidence, Heard
+from lipdb.coverage.fast.lexicon import BREAK, Lexicon
+from lipdb.coverage.fast.readings import Numbers, Readings
+from lipdb.coverage.fast.running import PAUSES, Running, running
+from lipdb.coverage.fast.words import Places, cut, is_character
 
 # What it costs to take one label for another: a vowel for a vowel, and so on; and to take none for it.
 _VOWELS, _CONSONANTS, _UNLIKE, _SILENT, _SKIP = 1, 2, 6, 8, 3

@@ -14,9 +14,9 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from lipdb.coverage.counts import PAIRS, Lines, pair_table
-from lipdb.coverage.forms import Forms
-from lipdb.coverage.readings import Numbers, Readings
-from lipdb.coverage.running import FLOWS, Running
+from lipdb.coverage.fast.forms import Forms
+from lipdb.coverage.fast.readings import Numbers, Readings
+from lipdb.coverage.fast.running import FLOWS, Running
 
 _AT_ONCE = 1 << 17  # Words: what numpy makes of them stays in the processor's cache.
 _LARGE = 20_000  # Words. Documents of more are counted one by one, smaller ones all at once.

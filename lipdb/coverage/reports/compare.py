@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from lipdb.coverage.frequency import Frequency, Pair
+from lipdb.coverage.reports.frequency import Frequency, Pair
 
 
 @dataclass(frozen=True, slots=True)

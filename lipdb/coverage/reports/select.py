@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from lipdb.coverage.frequency import Pair
+from lipdb.coverage.reports.frequency import Pair
 
 
 @dataclass(frozen=True, slots=True)

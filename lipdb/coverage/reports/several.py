@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from lipdb.coverage.frequency import Frequency, Pair
+from lipdb.coverage.reports.frequency import Frequency, Pair
 from lipdb.curves.lookup import Found, trust
 from lipdb.decisions import FALL_BACK, ORIGINS, PairUse
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from lipdb.coverage.context import KINDS, PLACES, Context
+from lipdb.coverage.fast.context import KINDS, PLACES, Context
 
 Votes = dict[tuple[str, int], Counter[str]]
 

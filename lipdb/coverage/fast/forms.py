@@ -8,11 +8,11 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from lipdb.coverage.context import CONSONANT, KINDS, PAUSE, PLACES, VOWEL, Context
-from lipdb.coverage.lexicon import Lexicon
-from lipdb.coverage.readings import Numbers
-from lipdb.coverage.running import FLOWS, PAUSES, Running
-from lipdb.coverage.words import cut
+from lipdb.coverage.fast.context import CONSONANT, KINDS, PAUSE, PLACES, VOWEL, Context
+from lipdb.coverage.fast.lexicon import Lexicon
+from lipdb.coverage.fast.readings import Numbers
+from lipdb.coverage.fast.running import FLOWS, PAUSES, Running
+from lipdb.coverage.fast.words import cut
 
 # What a word is to its neighbours: to the one in front (`VOWEL` or `CONSONANT`), to the one behind (the same, shifted), and more.
 _BEGINS, _ENDS, _PAUSES_BEFORE, _FLOWS_AFTER = 0b11, 0b1100, 16, 32

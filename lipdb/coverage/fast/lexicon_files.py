@@ -14,7 +14,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from lipdb.coverage.lexicon import ANSWERS, Lexicon
+from lipdb.coverage.fast.lexicon import ANSWERS, Lexicon
 from lipdb.errors import OutputError
 from lipdb.files import whole_file
 from lipdb.speech.cache import cache_folder

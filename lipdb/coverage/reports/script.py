@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lipdb.coverage.findings import REASONS
-from lipdb.coverage.frequency import Frequency, Pair
+from lipdb.coverage.reports.frequency import Frequency, Pair
+from lipdb.coverage.reports.sentences import pairs_in
 from lipdb.coverage.resolve import units_of
-from lipdb.coverage.sentences import pairs_in
 from lipdb.coverage.speaker import Speaker
 from lipdb.errors import InputError
 from lipdb.progress import report

@@ -2,7 +2,7 @@
 
 Words are cut from bytes (`words`), numbered (`lexicon`), read as their place asks (`context`, `forms`) and counted
 (`word_pairs`). A sample of the very lines, chosen by what is in them, is counted both ways; that is what the error of the
-result is measured on (`lipdb.coverage.error`). Nothing was learned from these lines.
+result is measured on (`lipdb.coverage.fast.error`). Nothing was learned from these lines.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from lipdb.coverage.context import Context
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, SAMPLE, Counts, Lines
 from lipdb.coverage.exact import ExactCounter
+from lipdb.coverage.fast.context import Context
+from lipdb.coverage.fast.forms import Forms
+from lipdb.coverage.fast.learn import learn
+from lipdb.coverage.fast.lexicon import REMARKS, Lexicon, Masks, mask_of
+from lipdb.coverage.fast.lexicon_files import MOST, join_files, keep, open_lexicon
+from lipdb.coverage.fast.running import LEFT_OUT, Running, running
+from lipdb.coverage.fast.word_pairs import pairs_of
+from lipdb.coverage.fast.words import Keys, keys_of, spans_of
 from lipdb.coverage.findings import CONTROLS, EMOJI, NO_WORDS
-from lipdb.coverage.forms import Forms
-from lipdb.coverage.learn import learn
-from lipdb.coverage.lexicon import REMARKS, Lexicon, Masks, mask_of
-from lipdb.coverage.lexicon_files import MOST, join_files, keep, open_lexicon
 from lipdb.coverage.lines import shown
-from lipdb.coverage.running import LEFT_OUT, Running, running
-from lipdb.coverage.word_pairs import pairs_of
-from lipdb.coverage.words import Keys, keys_of, spans_of
 from lipdb.errors import InputError
 from lipdb.speech.text import cleaned_up
 from lipdb.speech.voice import Voice

@@ -1,0 +1,1 @@
+"""What counts of real text say: frequencies, gaps, selections, comparisons."""
