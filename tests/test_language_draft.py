@@ -282,6 +282,7 @@ def zip_of(**files: bytes) -> bytes:
         (zip_of(**{"pl/phones.tsv": b"wrong header"}), "header must be"),
         (zip_of(**{"pl/phones.tsv": b"x"})[:-30], "no zip"),
     ],
+    ids=["text", "no_table", "outside", "no_text", "header", "cut_off"],  # a zip holds the time, a name must not
 )
 def test_an_upload_that_is_no_language_is_refused(data, told) -> None:
     with pytest.raises(LipdbError, match=told):
