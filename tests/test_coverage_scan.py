@@ -16,11 +16,13 @@ from coverage_cases import LetterCounter, pairs_in, pairs_of, text, write
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from lipdb.coverage import executors
 from lipdb.coverage.archive import Archive
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, PAIRS, SAMPLE, Counter, Counts
 from lipdb.coverage.executors import Workers
 from lipdb.coverage.result import AT_ONCE, _batches
 from lipdb.coverage.scan import Counted, count_corpus, seconds
+from lipdb.errors import LipdbError
 
 HERE = Path(__file__).parent
 
@@ -230,3 +232,14 @@ def test_only_some_counts_are_in_memory_at_once() -> None:
     many = Counts.of(table([("d", str(k), "b", 1) for k in range(1000)], PAIRS))
     sizes = [len(some) for some in _batches(many for _ in range(AT_ONCE // 1000 + 10))]
     assert len(sizes) == 2
+
+
+def test_workers_that_can_do_nothing_are_told_at_once(monkeypatch) -> None:
+    monkeypatch.setattr(executors, "_begin", ends)
+    with Workers(1) as crew, pytest.raises(LipdbError, match="end as soon as they begin"):
+        crew.alone(len, "task")
+
+
+def ends() -> None:
+    """A worker's beginning that is its end."""
+    os._exit(1)

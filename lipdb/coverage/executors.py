@@ -18,6 +18,8 @@ from functools import partial
 from multiprocessing import connection
 from typing import Any, Generic, NamedTuple, Self, TypeVar
 
+from lipdb.errors import LipdbError
+
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 THREADS = "threads"
@@ -74,10 +76,19 @@ class Workers:
             yield Done(task, self.alone(work, task))
 
     def alone(self, work: Callable[[Task], Result], task: Task) -> Result | None:
-        """The result of *work* for *task* with nothing beside it; None when it ended its worker."""
+        """The result of *work* for *task* with nothing beside it; None when it ended its worker.
+
+        Raises `LipdbError` when workers end whatever they are given.
+        """
         future = self._submit(work, task)
         wait([future])
-        return None if _lost(future) else future.result()
+        if not _lost(future):
+            return future.result()
+        alive = self._submit(_nothing, task)
+        wait([alive])
+        if _lost(alive):
+            raise LipdbError("the processes that count end as soon as they begin; count with --scheduler threads, or see `lipdb doctor`")
+        return None
 
     def _finished(self, running: dict[Future[Result], Task], suspects: list[Task]) -> Iterator[Done[Task, Result]]:
         """Wait for some of *running*; those whose worker was lost become *suspects*."""
@@ -112,6 +123,10 @@ class Workers:
             pool = ProcessPoolExecutor(self.count, mp_context=context, initializer=_begin)
             self._executor = pool
             self._stack.callback(_end, pool)
+
+
+def _nothing(task: object) -> None:
+    """What a worker can do if it can do anything."""
 
 
 def cores() -> int:
