@@ -6,6 +6,9 @@ import click
 
 from lipdb.cli.options import Options
 
+PATIENCE = 3.0
+"""Seconds that the server gets to end by itself."""
+
 
 @click.command(short_help="Open the dashboard in the browser.")
 @click.option("--port", type=click.IntRange(1, 65535), default=8501, show_default=True, help="Where the browser finds it.")
@@ -52,7 +55,12 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
         try:
             code = app.wait()
         except BaseException:
+            # The server waits for open pages to go away; nothing of theirs is lost when it does not.
             app.terminate()
+            try:
+                app.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                app.kill()
             raise
     sys.exit(code)
 
