@@ -1,4 +1,4 @@
-"""A page of the dashboard without a browser, on a database of its own: shared by tests of pages."""
+"""Pages of the dashboard without a browser, each test on a database of its own."""
 
 from __future__ import annotations
 
@@ -6,44 +6,23 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
 import streamlit as st
-from streamlit.testing.v1 import AppTest
 
 import lipdb
-from lipdb.paths import data_dir
 
-DASHBOARD = data_dir("dashboard")
+DASHBOARD = Path(__file__).resolve().parents[1] / "dashboard"
 
 
 @contextmanager
-def own_dashboard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[lipdb.Database]:
-    """A database in *folder* that pages work on, and nothing left of another test's."""
+def behind_pages(file: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[lipdb.Database]:
+    """The database in *file*, on which pages work within the block; afterwards nothing of them is left in the process."""
     monkeypatch.syspath_prepend(str(DASHBOARD))
-    monkeypatch.setenv("LIPDB_URL", str(folder / "lipdb.db"))
-    forget()
-    with lipdb.open(folder / "lipdb.db") as db:
-        yield db
-    forget()
-
-
-def forget() -> None:
-    """Drop what pages keep for all visitors."""
+    monkeypatch.setenv("LIPDB_URL", str(file))
     st.cache_resource.clear()
-    st.cache_data.clear()
+    with lipdb.open(str(file)) as database:
+        yield database
+    st.cache_resource.clear()
     for name in [name for name in sys.modules if name == "parts" or name.startswith("parts.")]:
         del sys.modules[name]
-
-
-def page(name: str, *, query: dict[str, str] | None = None, visitor: str = "anna", **session: Any) -> AppTest:
-    """The page *name* as the app runs it, under the name of *visitor*."""
-    pages = [f"st.Page({str(DASHBOARD / 'pages' / f'{one}.py')!r}, default={one == name})" for one in dict.fromkeys((name, "curves"))]
-    script = f"import streamlit as st\nfrom parts.session import greet\npage = st.navigation([{', '.join(pages)}])\ngreet()\npage.run()\n"
-    test = AppTest.from_string(script, default_timeout=60)
-    for key, value in {"visitor": visitor, **session}.items():
-        test.session_state[key] = value
-    for key, value in (query or {}).items():
-        test.query_params[key] = value
-    return test.run()

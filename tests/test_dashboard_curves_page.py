@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import json
 import shutil
-import sys
 from typing import Any
 
 import pytest
-import streamlit as st
+from page_cases import DASHBOARD, behind_pages
 from streamlit.testing.v1 import AppTest
 
 import lipdb
-from lipdb.paths import data_dir
 
-DASHBOARD = data_dir("dashboard")
 PEAK = [[0.0, 0.0], [0.5, 0.9], [1.0, 0.0]]
 
 
@@ -29,15 +26,8 @@ def template(tmp_path_factory):
 @pytest.fixture
 def db(template, tmp_path, monkeypatch):
     """A database of its own that the page works on."""
-    monkeypatch.syspath_prepend(str(DASHBOARD))
-    file = shutil.copy(template, tmp_path)
-    monkeypatch.setenv("LIPDB_URL", str(file))
-    st.cache_resource.clear()
-    with lipdb.open(str(file)) as database:
+    with behind_pages(shutil.copy(template, tmp_path), monkeypatch) as database:
         yield database
-    st.cache_resource.clear()
-    for name in [name for name in sys.modules if name == "parts" or name.startswith("parts.")]:
-        del sys.modules[name]
 
 
 def curves_page(db, **session: Any) -> AppTest:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import shutil
-import sys
 from typing import Any
 
 import pytest
-import streamlit as st
+from page_cases import DASHBOARD, behind_pages
 from shared_tables import copy_workspace
 from streamlit.testing.v1 import AppTest
 
 import lipdb
 from lipdb.curated.folder import read_folder
-from lipdb.paths import data_dir
 
-DASHBOARD = data_dir("dashboard")
 ADD, COMPARE = "Add a language", "Compare and merge"
 PHONES = "p m k l a i u ʃ=sh ɸ=f"
 TEXT = "Palu miku! Shapa lafi, mapu. Ki ama kulifa. Fafu shisha."
@@ -41,15 +38,8 @@ def workspace(template, tmp_path, monkeypatch):
 @pytest.fixture
 def db(template, workspace, tmp_path, monkeypatch):
     """A database of its own that the page works on."""
-    monkeypatch.syspath_prepend(str(DASHBOARD))
-    file = shutil.copy(template / "lipdb.db", tmp_path)
-    monkeypatch.setenv("LIPDB_URL", str(file))
-    st.cache_resource.clear()
-    with lipdb.open(str(file)) as database:
+    with behind_pages(shutil.copy(template / "lipdb.db", tmp_path), monkeypatch) as database:
         yield database
-    st.cache_resource.clear()
-    for name in [name for name in sys.modules if name == "parts" or name.startswith("parts.")]:
-        del sys.modules[name]
 
 
 def languages_page(name: str = "anna", **session: Any) -> AppTest:
