@@ -120,3 +120,25 @@ def stage_state(page: Any) -> dict[str, Any]:
     """What the player shows now: time, poses, shapes of each face."""
     state: dict[str, Any] = page.locator(".stage").evaluate("stage => stage.lipdb.state")
     return state
+
+
+def until(page: Any, condition: str, argument: Any = None) -> Any:
+    """What *condition* of (stage, argument) gives, once that is true."""
+    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
+    for _ in range(600):
+        if found := page.locator(".stage").evaluate(f"(stage, argument) => ({condition})", argument):
+            return found
+        page.wait_for_timeout(50)
+    raise AssertionError(f"never: {condition} with {argument}; now {stage_state(page)}")
+
+
+def at_rest(page: Any) -> None:
+    """Stop the player where it is."""
+    page.locator(".stage").evaluate("stage => stage.lipdb.clock.pause()")
+
+
+def seek(page: Any, seconds: float) -> None:
+    """Stop the player, and show *seconds*."""
+    at_rest(page)
+    page.locator(".stage").evaluate("(stage, time) => stage.lipdb.clock.seek(time)", seconds)
+    until(page, "Math.abs(stage.lipdb.state.time - argument) < 1e-3", seconds)

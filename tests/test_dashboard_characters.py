@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from browser import PATIENCE, settled, stage_state
+from browser import PATIENCE, at_rest, seek, settled
 
 import lipdb
 
@@ -21,7 +21,7 @@ def visitors(app, chromium):
         page.get_by_label("Your name", exact=True).press("Enter")
         settled(page)
         # Two faces that move leave a machine without a graphics card no time for anything else.
-        page.locator(".stage").evaluate("stage => stage.lipdb.clock.pause()")
+        at_rest(page)
         pages.append(page)
     yield pages
     for context in contexts:
@@ -48,11 +48,7 @@ def set_gain(page, gain: str) -> None:
 
 def jaw_at(page, time: float) -> float:
     """How far the shape *open* is moved at *time*."""
-    page.locator(".stage").evaluate("(stage, time) => { stage.lipdb.clock.pause(); stage.lipdb.clock.seek(time) }", time)
-    for _ in range(200):
-        if abs(stage_state(page)["time"] - time) < 1e-3:
-            break
-        page.wait_for_timeout(50)
+    seek(page, time)
     return page.locator(".stage").evaluate("stage => stage.lipdb.state.faces[0].shapes.open")
 
 

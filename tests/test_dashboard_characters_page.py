@@ -6,7 +6,7 @@ import json
 
 import pytest
 from glb_cases import Builder
-from page_cases import own_dashboard, page
+from page_cases import behind_pages, page
 from test_characters_uploaded import SVG, packed
 
 from lipdb.characters.overrides import overrides
@@ -18,7 +18,7 @@ LETTERS = [(f"{letter}.svg", SVG) for letter in "ABCDEFGHX"]
 
 @pytest.fixture
 def db(tmp_path, monkeypatch):
-    with own_dashboard(tmp_path, monkeypatch) as db:
+    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
         yield db
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from page_cases import own_dashboard, page
+from page_cases import behind_pages, page
 
 CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp": "border"}
 TABLE = "curves/facefx.tsv"
@@ -13,7 +13,7 @@ TABLE = "curves/facefx.tsv"
 
 @pytest.fixture
 def db(tmp_path, monkeypatch):
-    with own_dashboard(tmp_path, monkeypatch) as db:
+    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:  # 2
             edit.put(TABLE, CURVE)
         with db.edit(author="bob", note="Robin's own low") as edit:  # 3

@@ -1,7 +1,7 @@
 """The page Languages in a real browser: a small invented language, from its phones to a face that speaks it."""
 
 import pytest
-from browser import stage_state
+from browser import seek, stage_state, until
 from shared_tables import copy_workspace
 
 import lipdb
@@ -48,14 +48,6 @@ def fill(page, label: str, text: str) -> None:
 def press(page, label: str) -> None:
     page.get_by_role("button", name=label).click()
     still(page)
-
-
-def poll(page, ready) -> None:
-    for _ in range(400):
-        if ready(page.locator(".stage")):
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError("the player did not come so far")
 
 
 def alert(page) -> str:
@@ -116,9 +108,8 @@ def test_it_speaks_at_once_in_say(app, languages) -> None:
     with lipdb.open(str(app.database)) as db:
         track = db.animate(db.say("Palu miku!", language="qpa")).track
     time, duration = 20 / track.fps, len(track.weights) / track.fps
-    poll(languages, lambda face: abs(face.evaluate("stage => stage.lipdb.clock.duration") - duration) < 0.1)
-    languages.locator(".stage").evaluate("(stage, time) => stage.lipdb.clock.seek(time)", time)
-    poll(languages, lambda _: abs(stage_state(languages)["time"] - time) < 1e-3)
+    until(languages, "Math.abs(stage.lipdb.clock.duration - argument) < 0.1", duration)
+    seek(languages, time)
     shown = stage_state(languages)
     assert [shown["poses"][pose] for pose in track.poses] == pytest.approx(track.weights[20].tolist(), abs=1e-5)
     assert track.weights[20].max() > 0.3

@@ -8,14 +8,14 @@ from contextlib import closing
 
 import pytest
 from browser import PATIENCE, free_port, serving, settled
-from page_cases import own_dashboard, page
+from page_cases import behind_pages, page
 
 CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp": "border"}
 
 
 @pytest.fixture
 def db(tmp_path, monkeypatch):
-    with own_dashboard(tmp_path, monkeypatch) as db:
+    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:
             edit.put("curves/facefx.tsv", CURVE)
         yield db

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from browser import PATIENCE, free_port, serving, settled
 from oidc_cases import provider, secrets
-from page_cases import DASHBOARD, own_dashboard
+from page_cases import DASHBOARD, behind_pages
 from streamlit.testing.v1 import AppTest
 
 import lipdb
@@ -54,7 +54,7 @@ for name, way in ways.items():
 
 @pytest.fixture
 def db(tmp_path, monkeypatch):
-    with own_dashboard(tmp_path, monkeypatch) as db:
+    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:
             edit.put(TABLE, CURVE)
         yield db

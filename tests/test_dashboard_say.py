@@ -6,7 +6,7 @@ from urllib.parse import parse_qs, urlparse
 
 import numpy as np
 import pytest
-from browser import settled, stage_state
+from browser import at_rest, seek, settled, stage_state, until
 
 import lipdb
 
@@ -32,26 +32,6 @@ def front(app, page, requests):
 def track(app):
     with lipdb.open(str(app.database)) as db:
         return db.animate(db.say(EXAMPLE)).track
-
-
-def until(page, condition: str, argument=None):
-    """What *condition* of (stage, argument) gives, once that is true."""
-    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
-    for _ in range(600):
-        if found := page.locator(".stage").evaluate(f"(stage, argument) => ({condition})", argument):
-            return found
-        page.wait_for_timeout(50)
-    raise AssertionError(f"never: {condition} with {argument}; now {stage_state(page)}")
-
-
-def at_rest(page) -> None:
-    page.locator(".stage").evaluate("stage => stage.lipdb.clock.pause()")
-
-
-def seek(page, seconds: float) -> None:
-    at_rest(page)
-    page.locator(".stage").evaluate("(stage, time) => stage.lipdb.clock.seek(time)", seconds)
-    until(page, "Math.abs(stage.lipdb.state.time - argument) < 1e-3", seconds)
 
 
 def say(page, text: str) -> None:
@@ -131,7 +111,7 @@ def test_where_the_browser_lets_nothing_sound_the_face_moves_and_offers_the_soun
 
 
 def test_a_stretch_that_is_dragged_loops_and_a_drag_scrubs(front) -> None:
-    at_rest(front)
+    seek(front, 0.3)  # whatever the test before has left is drawn then, and the lanes stand where they stay
     box = front.locator(".stage .over").bounding_box()
     x, y = box["x"], box["y"]
     front.mouse.move(x + 300, y + 50)
