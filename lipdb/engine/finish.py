@@ -29,8 +29,9 @@ class Order:
     """A pose set's rows in the order in which they are worked out.
 
     *pose* ``(P,)`` is the pose of each row and *row* the other way round; *held* rows, the first, are must-reach poses;
-    *levels* are the rows of the other levels; *bounds* of each row are (threshold, higher rows); *speed* ``(P, 1)`` by row;
-    *outrun* tells for each level whether a pose in it can be bounded by a faster one.
+    *levels* are the rows of the other levels; *bounds* of each row are (threshold, higher rows); *speed* ``(P, 1)`` by row,
+    and *slowest* the least of must-reach poses, whose peaks spread by it; *outrun* tells for each level whether a pose in it
+    can be bounded by a faster one.
     """
 
     pose: Ints
@@ -39,6 +40,7 @@ class Order:
     levels: tuple[slice, ...]
     bounds: tuple[tuple[tuple[float, tuple[int, ...]], ...], ...]
     speed: Floats
+    slowest: float
     outrun: tuple[bool, ...]
 
 
@@ -55,7 +57,8 @@ def order_of(pose_set: PoseSet) -> Order:
     outrun = tuple(
         any(speed[j] > speed[k] for k in range(rows.start, rows.stop) for _, above in bounds[k] for j in above) for rows in levels
     )
-    return Order(pose, row, stops[0], levels, bounds, speed, outrun)
+    slowest = float(speed[: stops[0]].min(initial=np.inf))
+    return Order(pose, row, stops[0], levels, bounds, speed, slowest, outrun)
 
 
 def _grouped(bounds: list[tuple[float, int]]) -> tuple[tuple[float, tuple[int, ...]], ...]:

@@ -24,14 +24,13 @@ def hold_peaks(weights: Floats) -> None:
     A single point raises both neighbours, two points the higher one of theirs: no more than the peak needs, because all
     that it takes beyond is taken from the opening after it.
     """
-    first, last = peaks(weights)
-    narrow = last - first < 2
-    first, last = first[narrow], last[narrow]
     flat = weights.reshape(-1)
-    top, single = flat[first], first == last
-    before = flat[first - 1] >= flat[last + 1]
-    for at, raised in ((first - 1, single | before), (last + 1, single | ~before)):
-        np.maximum.at(flat, at[raised], top[raised])
+    up, down = flat[1:] > flat[:-1], flat[1:] < flat[:-1]
+    single = (up[:-1] & down[1:]).nonzero()[0] + 1
+    double = (up[:-2] & ~(up | down)[1:-1] & down[2:]).nonzero()[0] + 1
+    higher = np.where(flat[double - 1] >= flat[double + 2], double - 1, double + 2)
+    for at, top in ((single - 1, single), (single + 1, single), (higher, double)):
+        np.maximum.at(flat, at, flat[top])
 
 
 def limit_below(weights: Floats, most: Floats) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import overload
 
@@ -122,6 +123,7 @@ class Player:
         return frames
 
 
+@lru_cache(maxsize=64)
 def _margin(order: Order, rate: float) -> int:
     """Points, *rate* a second, that constraints and speed limits can reach across."""
     groups = (slice(0, order.held), *order.levels)
@@ -132,7 +134,7 @@ def prepared(table: CurveTable, pose_set: PoseSet, lines: Sequence[Line], *, fps
     """A player for *lines*; see `animate_lines`."""
     if table.poses != pose_set.poses:
         raise CurveError(f"the table of curves is for poses {', '.join(table.poses)}, not for those of pose set {pose_set.name!r}")
-    slowest = float(pose_set.speed.min(initial=np.inf, where=pose_set.must_reach))  # nothing else spreads
+    slowest = order_of(pose_set).slowest
     return Player(table, pose_set, lay(table, lines, fps=fps, frames=frames, window=pose_set.window, slowest=slowest))
 
 
@@ -152,8 +154,7 @@ def animate_lines(
     axis = np.empty((len(pose_set.poses), timeline.axis))
     parts = max(1, round(timeline.axis / CHUNK))
     for begin, end in pairwise(timeline.axis * part // parts for part in range(parts + 1)):
-        for pose, weights in zip(player.order.pose, player.frames(begin, end), strict=True):
-            axis[pose, begin:end] = weights
+        axis[player.order.pose, begin:end] = player.frames(begin, end)
     return Tracks(axis, timeline.origin, timeline.frames, pose_set.poses, fps)
 
 

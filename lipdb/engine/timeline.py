@@ -152,8 +152,10 @@ def lay(table: CurveTable, lines: Sequence[Line], *, fps: float, frames: Sequenc
     begins, line = begin[at], head.searchsorted(at, side="right") - 1
     pad = 1 + math.ceil(max(window * CONTROL_RATE / 2, CONTROL_RATE / slowest + 2))  # held, limited and splined
     low, high = begins // rate.control - pad, _up(finish, rate.control) + pad + 1
-    pad = pad if rate.on_grid else 2 + math.ceil(pad * fps / CONTROL_RATE + fps / slowest)  # raised and limited once more
-    low_frame, high_frame = begins // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
+    low_frame, high_frame = low + anchor, high + anchor
+    if not rate.on_grid:
+        pad = 2 + math.ceil(pad * fps / CONTROL_RATE + fps / slowest)  # raised and limited once more
+        low_frame, high_frame = begins // rate.frame + anchor - pad, _up(finish, rate.frame) + anchor + pad + 1
     first_frame, last_frame = np.zeros_like(asked), asked.copy()
     np.minimum.at(first_frame, line, low_frame)
     np.maximum.at(last_frame, line, high_frame)
@@ -212,6 +214,8 @@ def _asked(rate: Rate, end: Ints, frames: Sequence[int] | None) -> Ints:
 
 def _shares(begin: Ints, end: Ints, line: Ints) -> Ints:
     """The first frame of each run: where its line begins, or halfway through the rest after the run before."""
+    if len(line) == line[-1] + 1:  # a run a line
+        return begin
     first = begin.copy()
     inner = (line[1:] == line[:-1]).nonzero()[0] + 1
     first[inner] = (end[inner - 1] + begin[inner]) // 2
@@ -220,4 +224,4 @@ def _shares(begin: Ints, end: Ints, line: Ints) -> Ints:
 
 def _up(units: Ints, step: int) -> Ints:
     """How many whole steps reach *units*, rounded up."""
-    return -(-units // step)
+    return (units + (step - 1)) // step
