@@ -69,31 +69,27 @@ def stitch(table: CurveTable, keys: Keys, row: Ints, held: int, *, begin: int, w
 def _draw(out: Floats, start: Ints, place: Floats, weight: Floats) -> None:
     """Draw straight lines from each key to the next one of its strip into flat *out* by maximum.
 
-    A line takes every grid point from one key to the other, both included. Lines that meet at most one grid point may
-    be as steep as they like; the others change by at most 1 a step, so counting steps through them loses no digits.
+    A line takes every grid point from one key to the other, both included.
     """
     first = np.ceil(place[:-1])
-    width = place[1:] - place[:-1]
-    rise = weight[1:] - weight[:-1]
     count = np.floor(place[1:])
     count -= first
     count += 1
+    width = place[1:] - place[:-1]
     np.maximum(width, TINY, out=width)
+    rise = weight[1:] - weight[:-1]
+    rise /= width
     value = first - place[:-1]
-    value /= width
     value *= rise
     value += weight[:-1]
-    np.maximum(width, 1, out=width)
-    rise /= width
     counts = count.reshape(-1).astype(np.int64)
-    offset = counts.cumsum().reshape(count.shape)
-    offset -= counts.reshape(count.shape)
-    value -= np.multiply(rise, offset, out=width)
+    offset = counts.cumsum()
+    offset -= counts
     begin = first.astype(np.int64)
     begin += start
-    begin -= offset
-    line = np.arange(len(counts)).repeat(counts)  # one repeat and three takes are quicker than three repeats
+    line = np.arange(len(counts)).repeat(counts)  # one repeat and a take each are quicker than repeats
     steps = np.arange(len(line))
+    steps -= offset.take(line)
     at = begin.reshape(-1).take(line)
     at += steps
     values = rise.reshape(-1).take(line)
