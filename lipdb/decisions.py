@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from lipdb.curated.schema import BY_HAND
 from lipdb.curves.lookup import trust
 
 if TYPE_CHECKING:
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 FALL_BACK = "fall-back"
 ORIGINS = ("authored", "fitted", "imported", "generated", FALL_BACK)
 """Where a curve comes from, the most worked on first; a fall-back stands in no table."""
-BY_HAND = ("authored", "fitted")
-"""The origins that need no more work."""
 
 
 @dataclass(frozen=True, slots=True)

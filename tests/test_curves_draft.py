@@ -8,6 +8,7 @@ from lipdb.curves.draft import Draft, Place, overriding
 from lipdb.curves.keys import format_keys
 from lipdb.curves.lookup import CurveBook
 from lipdb.curves.rehearse import PAUSE, REACH, USUAL, Rehearsal, occurrences, usual_lengths
+from lipdb.decisions import pair_uses
 from lipdb.errors import CurveError, InputError
 from lipdb.paths import data_dir
 from lipdb.poses import PoseSet
@@ -113,6 +114,31 @@ def test_a_pair_that_has_curves_of_its_own_is_saved_pose_by_pose(records) -> Non
     draft = Draft.load(below, place("character", ("l", "ow"), "crab", "crab"))
     assert not draft.whole
     assert list(draft.rows({**draft.curves, "smile": PEAK})) == [("l", "ow", "smile")]
+
+
+def test_a_pair_that_is_accepted_is_work_for_nobody_any_more(records) -> None:
+    for where in (place(), place("language"), place("character", ("l", "eh"), "crab", "crab")):
+        draft = Draft.load(records, where)
+        moving = [pose for pose, lane in draft.lanes.items() if lane.keys]
+        assert draft.unfinished(draft.curves) == moving
+        rows = draft.accepted(draft.curves)
+        assert {key[2] for key in rows} == set(draft.lanes if draft.whole else moving)
+        signed = {key: {**row, "origin": "authored"} for key, row in rows.items() if row}
+        after = {**records, where.table: {**records.get(where.table, {}), **signed}}
+        [before], [use] = (pair_uses(where.book(now), [((where.left, where.right), 1.0)]) for now in (records, after))
+        assert (before.gap, use.gap) == (True, False)
+        assert {pose: found.curve.keys for pose, found in use.curves.items()} == {
+            pose: found.curve.keys for pose, found in before.curves.items()
+        }
+        assert {row["source"] for row in signed.values()} == {found.curve.source for found in before.curves.values()}
+        assert Draft.load(after, where).unfinished(Draft.load(after, where).curves) == []
+
+
+def test_what_is_drawn_and_not_saved_is_drawn_when_the_pair_is_accepted(records) -> None:
+    draft = Draft.load(records, place())
+    curves = {**draft.curves, "W": PEAK}
+    assert "W" not in draft.unfinished(curves)
+    assert draft.accepted(curves)["l", "ow", "W"]["keys"] == "0:0 0.5:1 1:0"
 
 
 def test_what_an_editor_sends_is_checked(records) -> None:

@@ -56,6 +56,21 @@ def test_an_edit_that_changes_nothing_makes_no_revision(store):
     assert store.records(CURVES)[CURVES][KEY] == seen
 
 
+def test_what_a_person_accepts_becomes_authored_by_them_and_keeps_its_source(store):
+    seen = store.records(CURVES)[CURVES]["bmp", "aa", "PBM"]
+    assert seen["origin"] == "generated"
+    with store.edit(author="anna") as edit:
+        edit.put(CURVES, seen, expected_revision=1, accepted=True)
+    accepted = store.records(CURVES)[CURVES]["bmp", "aa", "PBM"]
+    assert (accepted["origin"], accepted["author"], accepted["time"]) == ("authored", "anna", edit.time)
+    assert {**accepted, **{name: seen[name] for name in ("origin", "author", "time")}} == seen
+    with store.edit(author="bob") as edit:  # who accepts what Anna has accepted already takes nothing from her, and is in nobody's way
+        edit.put(CURVES, seen, expected_revision=1, accepted=True)
+    assert edit.revision is None
+    store.undo(2, author="anna")
+    assert store.records(CURVES)[CURVES]["bmp", "aa", "PBM"] == seen
+
+
 def test_an_error_inside_the_block_saves_nothing(store):
     with pytest.raises(RuntimeError), store.edit(author="anna") as edit:
         edit.put(CURVES, curve())

@@ -20,7 +20,8 @@ from lipdb.coverage.reports.gaps import MINUTES, gaps, outlook
 from lipdb.coverage.reports.named import named_frequency
 from lipdb.coverage.reports.report import LEVELS, Summary, by_curve, ranked
 from lipdb.coverage.reports.several import balanced, summed, together
-from lipdb.decisions import BY_HAND, PairUse
+from lipdb.curated.schema import BY_HAND
+from lipdb.decisions import PairUse
 from lipdb.schedule import SILENCE
 
 MATRIX, FREQUENCY, TO_DO, SCRIPT, CORPORA = VIEWS = ("Pairs", "Frequency", "To do", "Your script", "Corpora")

@@ -16,6 +16,8 @@ from lipdb.curves.keys import format_keys, parse_keys
 from lipdb.errors import CurveError
 
 ORIGINS = ("authored", "fitted", "generated", "imported")
+BY_HAND = ("authored", "fitted")
+"""The origins that need no more work."""
 TIME_FORMAT = "%Y-%m-%dT%H:%M:%SZ"
 NAME = re.compile(r"\S+")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from lipdb.curated.schema import BY_HAND
 from lipdb.curated.tsv import Key, Records, Row
 from lipdb.curves.curve import Curve, curve_from_row
 from lipdb.curves.keys import Keys, format_keys, parse_keys
@@ -87,6 +88,11 @@ class Lane:
         """The keys that count in this layer."""
         return self.own.keys if self.own else self.below.curve.keys
 
+    def by_hand(self, own: bool) -> bool:
+        """Whether a person made the layer's *own* curve, or else the one below, or the data did."""
+        curve = self.own if own else self.below.curve
+        return curve is not None and curve.origin in BY_HAND
+
 
 @dataclass(frozen=True, slots=True)
 class Draft:
@@ -160,13 +166,36 @@ class Draft:
             curves = {pose: lane.below.curve.keys if curves.get(pose) is None else curves[pose] for pose, lane in self.lanes.items()}
         return {self.place.key(pose): self._row(self.lanes[pose], curves.get(pose)) for pose in self.changed(curves)}
 
+    def unfinished(self, curves: Curves) -> list[str]:
+        """The poses that move the face in this pair with a curve that nobody has drawn, fitted or accepted.
+
+        Of a pair that leaves every pose at rest, all of them may be. What *curves* change counts as drawn.
+        """
+        counting = {pose: lane.below.curve.keys if curves.get(pose) is None else curves[pose] for pose, lane in self.lanes.items()}
+        moving = [pose for pose, keys in counting.items() if keys] or list(counting)
+        changed = [pose for pose in self.changed(curves) if curves.get(pose) is not None]
+        return [pose for pose in moving if pose not in changed and not self.lanes[pose].by_hand(curves.get(pose) is not None)]
+
+    def accepted(self, curves: Curves) -> dict[Key, Row | None]:
+        """As `rows`, and with them a row for every pose of `unfinished`, with the curve that it has now.
+
+        To be saved as accepted (see `lipdb.store.edit.Edit.put`): then the pair is work for nobody any more.
+        """
+        poses = self.unfinished(curves)
+        below = {pose: self.lanes[pose].below.curve.keys for pose in poses if curves.get(pose) is None}
+        own = {self.place.key(pose): self._row(self.lanes[pose], curves[pose]) for pose in poses if pose not in below}
+        return own | self.rows({**curves, **below})
+
     def _row(self, lane: Lane, keys: Keys | None) -> Row | None:
         if keys is None:
             return None
         key = (self.place.left, self.place.right, lane.pose)
         if lane.own:
             return {**lane.own.row(key), "keys": format_keys(keys)}
-        return Curve(keys, lane.below.curve.warp, origin="", source="", licence="").row(key)
+        below = lane.below.curve
+        if keys == below.keys:  # what made them made these
+            return Curve(keys, below.warp, origin="", source=below.source, licence=below.licence).row(key)
+        return Curve(keys, below.warp, origin="", source="", licence="").row(key)
 
     def applied(self, records: Records, curves: Curves) -> Records:
         """*records* as they will be when *curves* are saved."""

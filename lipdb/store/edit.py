@@ -21,6 +21,7 @@ from lipdb.store.revisions import Changed, Present, author_name, author_of, last
 class _Staged:
     row: Row | None
     expected: int | None
+    accepted: bool = False
 
 
 class Edit:
@@ -38,10 +39,11 @@ class Edit:
         self._by_hand = by_hand
         self._staged: dict[Place, _Staged] = {}
 
-    def put(self, path: str, row: Mapping[str, str], expected_revision: int | None = None) -> None:
+    def put(self, path: str, row: Mapping[str, str], expected_revision: int | None = None, *, accepted: bool = False) -> None:
         """Stage *row* of the table at *path*, new or in place of the one with its key.
 
-        *expected_revision* is the revision at which the editor saw the row; None saves over anything.
+        *expected_revision* is the revision at which the editor saw the row; None saves over anything. With *accepted*, a
+        row that a program made becomes the author's own though its values stay: somebody looked and found it right.
         Raises `PhonesetError` for a path that is no table's or a cell that is wrong.
         """
         table = _table(path)
@@ -51,7 +53,7 @@ class Edit:
             "".join(clean.values()).encode()
         except ValueError as error:
             raise PhonesetError(f"{path}: {error}") from error
-        self._staged[path, key_of(table, clean)] = _Staged(clean, expected_revision)
+        self._staged[path, key_of(table, clean)] = _Staged(clean, expected_revision, accepted)
 
     def delete(self, path: str, key: Sequence[str], expected_revision: int | None = None) -> None:
         """Stage the removal of the row with *key*; a row that is not there stays away."""
@@ -79,10 +81,10 @@ class Edit:
                 yield Changed(place, before, after)
 
     def _signed(self, place: Place, before: Row | None) -> Row | None:
-        row = self._staged[place].row
-        if row is None or not self._by_hand:
-            return row
-        return signed(_table(place[0]), row, before, author=self.author, time=self.time)
+        staged = self._staged[place]
+        if staged.row is None or not self._by_hand:
+            return staged.row
+        return signed(_table(place[0]), staged.row, before, author=self.author, time=self.time, accepted=staged.accepted)
 
     def _refuse_lost_work(self, connection: sa.Connection, present: Mapping[Place, Present]) -> None:
         conflicts, newest = [], 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lipdb.curated.schema import Table
+from lipdb.curated.schema import BY_HAND, Table
 from lipdb.curated.tsv import Row
 
 USER_SOURCE = "user"
@@ -24,16 +24,19 @@ def completed(table: Table, row: Mapping[str, str], *, author: str, time: str) -
     return {**row, **{name: row.get(name) or cell for name, cell in own.items()}}
 
 
-def signed(table: Table, row: Row, before: Row | None, *, author: str, time: str) -> Row:
+def signed(table: Table, row: Row, before: Row | None, *, author: str, time: str, accepted: bool = False) -> Row:
     """What a person's edit of *before* into *row* stores.
 
     A row whose values change becomes `authored`, by this author, now. Its source and licence are the given ones, but
     those that *row* merely kept from a generated, fitted or imported row give way to the user's own: that source did
-    not make the new values. A row whose values stay keeps origin, author and time.
+    not make the new values. A row whose values stay keeps origin, author and time; when a person has looked at it and
+    *accepted* it as it is, it becomes `authored` too, and keeps its source, unless it was made by hand already.
     """
     if "origin" not in table.names:
         return row
     if before is not None and not _changes(table, row, before):
+        if accepted and before["origin"] not in BY_HAND:
+            return {**row, "origin": "authored", "author": author, "time": time}
         return {**row, **{name: before[name] for name in ("origin", "author", "time")}}
     result = {**row, "origin": "authored", "author": author, "time": time}
     if before is not None and before["origin"] != "authored" and row["source"] == before["source"]:
