@@ -41,6 +41,8 @@ def main(folder: Path) -> None:
             print(f"  wrote {' '.join(map(str, paths))}", flush=True)
     print(f"Done in {time.perf_counter() - started:.1f} s. Open {folder}/hello-robin.mp4, or say something of your own:")
     print('  .venv/bin/lipdb say "How are you?" --character crab -o how.mp4')
+    print("See it, look for gaps and edit it in the browser:")
+    print("  .venv/bin/lipdb dashboard")
 
 
 if __name__ == "__main__":
