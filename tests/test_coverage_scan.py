@@ -240,6 +240,6 @@ def test_workers_that_can_do_nothing_are_told_at_once(monkeypatch) -> None:
         crew.alone(len, "task")
 
 
-def ends() -> None:
+def ends(_environment: object) -> None:
     """A worker's beginning that is its end."""
     os._exit(1)

@@ -60,6 +60,10 @@ def scan(
       lipdb coverage scan wiki/ --language de --mode fast -o wiki.parquet
       zcat crawl.gz | lipdb coverage scan - --language en
     """
+    from lipdb.coverage.executors import make_ready
+
+    if not scheduler:
+        make_ready()  # before the imports that take longest
     from lipdb.coverage.register import scan as run
 
     with options.open() as db:

@@ -6,14 +6,15 @@ others: Dask does so itself, and for processes of this machine `Workers` starts 
 
 from __future__ import annotations
 
+import ctypes
 import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import partial
 from multiprocessing import connection
 from typing import Any, Generic, NamedTuple, Self, TypeVar
@@ -118,11 +119,26 @@ class Workers:
             self._executor = ThreadPoolExecutor(self.count)
             self._stack.callback(self._executor.shutdown, cancel_futures=True)
         else:
-            # Spawned: a fork of a process with threads can wait for a lock that nobody holds.
-            context = multiprocessing.get_context("spawn")
-            pool = ProcessPoolExecutor(self.count, mp_context=context, initializer=_begin)
+            make_ready()
+            context = multiprocessing.get_context(_METHOD)
+            pool = ProcessPoolExecutor(self.count, mp_context=context, initializer=_begin, initargs=(dict(os.environ),))
             self._executor = pool
             self._stack.callback(_end, pool)
+
+
+# Never forks of this process: one with threads can wait for a lock that nobody holds. A server without threads forks workers
+# that have their imports already; where there is no such thing each is spawned.
+_METHOD = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
+_IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "pandas"]  # pyarrow loads pandas with the first array.
+
+
+def make_ready() -> None:
+    """Begin to import what processes need, beside whatever this process does next; a second time does nothing."""
+    if _METHOD == "forkserver":
+        from multiprocessing import forkserver
+
+        multiprocessing.get_context(_METHOD).set_forkserver_preload(_IMPORTED)
+        forkserver.ensure_running()
 
 
 def _nothing(task: object) -> None:
@@ -156,13 +172,30 @@ def _within(seconds: float, work: Callable[[Task], Result], task: Task) -> Resul
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
 
 
-def _begin() -> None:
-    """Prepare a worker process: Ctrl-C is its parent's business, and it ends when its parent does, however that ends."""
+def _begin(environment: Mapping[str, str]) -> None:
+    """Prepare a worker process: Ctrl-C is its parent's business, and it ends when its parent does, however that ends.
+
+    *environment* is its parent's, which may have changed since the first process was made ready.
+    """
+    os.environ.clear()
+    os.environ.update(environment)
+    _keep_memory()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=(parent.sentinel,), daemon=True).start()
+
+
+def _keep_memory() -> None:
+    """Have the C library keep memory that arrays let go of; to be given it anew can take as long as the work that is done in it.
+
+    Only glibc knows how.
+    """
+    with suppress(AttributeError, OSError, TypeError):
+        options = ctypes.CDLL(None).mallopt
+        options(-3, 1 << 25)  # M_MMAP_THRESHOLD, the largest that it takes
+        options(-1, 1 << 28)  # M_TRIM_THRESHOLD
 
 
 def _follow(parent: int) -> None:

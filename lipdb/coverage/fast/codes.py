@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Self
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,7 +11,7 @@ Keys = NDArray[np.uint64]
 Numbers = NDArray[np.int32]
 
 UNKNOWN = -1
-_SPARE = 4  # Slots for each key: three in four looks find their key at once even when the table is full.
+_SPARE = 3  # Slots for each key: two in three looks find their key at once even when the table is full.
 
 
 class Codes:
@@ -21,6 +23,18 @@ class Codes:
 
     def __len__(self) -> int:
         return self._count
+
+    @property
+    def slots(self) -> tuple[Keys, Numbers]:
+        """The table: by slot the key, 0 where there is none, and its number."""
+        return self._slots
+
+    @classmethod
+    def of(cls, keys: Keys, numbers: Numbers, count: int) -> Self:
+        """The *count* keys of a table that `slots` gave."""
+        codes = cls()
+        codes._slots, codes._count = (keys, numbers), count
+        return codes
 
     def find(self, keys: Keys) -> Numbers:
         """The number of each of *keys*, `UNKNOWN` for those that are new."""
@@ -46,6 +60,8 @@ class Codes:
             old, old_numbers = held[held != 0], numbers[held != 0]
             held, numbers = np.zeros(size, np.uint64), np.full(size, UNKNOWN, np.int32)
             _insert(held, numbers, old, old_numbers)
+        elif not held.flags.writeable:  # others read it too
+            held, numbers = held.copy(), numbers.copy()
         added = np.arange(self._count, total, dtype=np.int32)
         _insert(held, numbers, keys, added)
         self._slots, self._count = (held, numbers), total

@@ -9,8 +9,9 @@ word has a reading for each of three things before it and three behind it: a pau
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
+from typing import Any, Self
 
 PAUSE, VOWEL, CONSONANT = range(3)
 """What stands before or behind a word."""
@@ -41,6 +42,16 @@ class Context:
         """Changes with anything in it."""
         told = self.readings, self.heads, self.tails, self.pauses_before, self.flows_after
         return hashlib.sha256(repr(told).encode()).hexdigest()[:12]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return asdict(self)
+
+    @classmethod
+    def from_json(cls, told: dict[str, Any]) -> Self:
+        """What `to_json` gave. Raises `TypeError` for anything else."""
+        fields: dict[str, Any] = {name: tuple(tuple(one) if isinstance(one, list) else one for one in rows) for name, rows in told.items()}
+        return cls(**fields)
 
     @cached_property
     def _heads(self) -> dict[tuple[str, int], str]:

@@ -18,9 +18,9 @@ from lipdb.coverage.counts import DOCUMENTS, FINDINGS, SAMPLE, Counts, Lines
 from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.fast.context import Context
 from lipdb.coverage.fast.forms import Forms
-from lipdb.coverage.fast.learn import learn
-from lipdb.coverage.fast.lexicon import REMARKS, Lexicon, Masks, mask_of
-from lipdb.coverage.fast.lexicon_files import MOST, join_files, keep, open_lexicon
+from lipdb.coverage.fast.lexicon import REMARKS, Masks, mask_of
+from lipdb.coverage.fast.lexicon_files import MOST, join_files, keep
+from lipdb.coverage.fast.opened import context_of, keep_forms, open_forms
 from lipdb.coverage.fast.running import LEFT_OUT, Running, running
 from lipdb.coverage.fast.word_pairs import pairs_of
 from lipdb.coverage.fast.words import Keys, keys_of, spans_of
@@ -53,10 +53,12 @@ def fast_counter(voice: Voice, sentences: Sequence[str], *, size: int = 0, folde
         raise InputError(
             f"fast counting takes a text word by word, and {voice.language!r} is written without spaces between words; count it exactly"
         )
+    context = context_of(voice, sentences, folder)
     if folder is not None:
         join_files(folder)
+        keep_forms(voice, context, folder)
     share = next(share for limit, share in _SHARES if (size and size <= limit) or not limit)
-    return FastCounter(voice, learn(Lexicon(voice), sentences), share, folder)
+    return FastCounter(voice, context, share, folder)
 
 
 @dataclass(frozen=True)
@@ -192,7 +194,7 @@ def _at_work(counter: FastCounter) -> Forms:
     forms = _AT_WORK.get(counter.key)
     if forms is None or len(forms.lexicon) > MOST:
         full = forms is not None
-        forms = Forms(open_lexicon(counter.voice, None if full else counter.folder), counter.context)
+        forms = open_forms(counter.voice, counter.context, None if full else counter.folder)
         _AT_WORK.clear()
         _AT_WORK[counter.key] = forms
     return forms

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import groupby
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
@@ -54,7 +54,8 @@ class Lexicon:
     """What *voice* says to words.
 
     By the number of a word: *reading* is the number of its reading in *readings*, *remarks* a mask. *pauses* says of each gap
-    whether the voice pauses there. What was *asked* of the voice stands there until somebody keeps it.
+    whether the voice pauses there. What was *asked* of the voice stands there until somebody keeps it;
+    *files* are the names of those whose answers were taken over.
     """
 
     def __init__(self, voice: Voice) -> None:
@@ -64,9 +65,23 @@ class Lexicon:
         self.unusual: NDArray[np.bool_] = np.zeros(0, bool)
         self.pauses: NDArray[np.bool_] = np.zeros(0, bool)
         self.asked = ANSWERS.empty_table()
+        self.files: set[str] = set()
         self.speaker = Speaker(voice)
         self._frame, self._beside = _FRAMES.get(voice.script, ""), _BESIDE.get(voice.script, "3")
         self._words, self._gaps = Codes(), Codes()
+
+    def arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+        """All that `restore` needs: arrays, and plain data."""
+        keys, numbers = self._words.slots
+        told = {"names": self.readings.names, "files": sorted(self.files)}
+        return {"keys": keys, "numbers": numbers, "reading": self.reading, "remarks": self.remarks, **self.readings.arrays()}, told
+
+    def restore(self, arrays: dict[str, NDArray[Any]], told: dict[str, Any]) -> None:
+        """Take over what `arrays` gave of another lexicon of the same voice; this one is empty."""
+        self.reading, self.remarks = arrays.pop("reading"), arrays.pop("remarks")
+        self._words = Codes.of(arrays.pop("keys"), arrays.pop("numbers"), len(self.reading))
+        self.unusual = (self.remarks != 0) | (self.reading == 0)
+        self.readings, self.files = Readings.of(told["names"], **arrays), set(told["files"])
 
     def __len__(self) -> int:
         return len(self._words)

@@ -39,14 +39,16 @@ def lexicon_folder(voice: Voice) -> Path:
 def open_lexicon(voice: Voice, folder: Path | None) -> Lexicon:
     """The lexicon of *voice* with what *folder* has."""
     lexicon = Lexicon(voice)
-    if folder is not None and len(answers := _once([table for _, table in _tables(folder)])):
-        lexicon.learn(answers.slice(0, KEPT))
+    if folder is not None:
+        found = _tables(folder)
+        lexicon.learn(_once([table for _, table in found]).slice(0, KEPT))
+        lexicon.files = {file.name for file, _ in found}
     return lexicon
 
 
 def join_files(folder: Path) -> None:
     """Make one file of many, so that those who open the lexicon need not."""
-    if len(_files(folder)) <= _MANY:
+    if len(answer_files(folder)) <= _MANY:
         return
     found = _tables(folder)
     if _write(_once([table for _, table in found]).slice(0, KEPT), folder):
@@ -63,7 +65,8 @@ def keep(lexicon: Lexicon, folder: Path | None) -> None:
     lexicon.asked = ANSWERS.empty_table()
 
 
-def _files(folder: Path) -> list[Path]:
+def answer_files(folder: Path) -> list[Path]:
+    """The files of *folder*, by name."""
     try:
         return sorted(folder.glob(f"[!.]*{_SUFFIX}"))
     except OSError:
@@ -72,7 +75,7 @@ def _files(folder: Path) -> list[Path]:
 
 def _tables(folder: Path) -> list[tuple[Path, pa.Table]]:
     """The files of *folder* that can be read, and what is in them."""
-    return [(file, table) for file in _files(folder) if (table := _read(file)) is not None]
+    return [(file, table) for file in answer_files(folder) if (table := _read(file)) is not None]
 
 
 def _once(tables: list[pa.Table]) -> pa.Table:

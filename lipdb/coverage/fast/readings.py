@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, Self
 
 import numpy as np
 import pyarrow as pa
@@ -38,6 +39,18 @@ class Readings:
 
     def __len__(self) -> int:
         return len(self.first)
+
+    def arrays(self) -> dict[str, NDArray[np.integer]]:
+        """All that `of` needs beside *names*."""
+        return {"labels": self.labels, "starts": self.starts, "first": self.first, "outer": self.outer}
+
+    @classmethod
+    def of(cls, names: Sequence[str], **arrays: NDArray[Any]) -> Self:
+        """Readings from their labels' *names* and what `arrays` gave."""
+        table = cls()
+        table.label_numbers(names)
+        vars(table).update(arrays)
+        return table
 
     def number(self, readings: pa.StringArray) -> Numbers:
         """The numbers of *readings*; those that are new are added."""
