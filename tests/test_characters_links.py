@@ -10,6 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from lipdb.characters.character import Character
 from lipdb.characters.links import closing_shapes, identity_links, through_links
+from lipdb.characters.own_links import bend_drawn
 from lipdb.curated.folder import read_folder
 from lipdb.curves.curve import Curve
 from lipdb.curves.through import Link, carried
@@ -185,3 +186,11 @@ def test_pressed_lips_win_on_the_flat_mouth(shipped):
     weights[1, poses.index("FV")], weights[1, poses.index("wide")] = 0.96, 0.4
     shapes = flat.shapes(Track(weights, poses, 60.0))
     assert [shapes.poses[i] for i in shapes.weights.argmax(axis=1)] == ["A", "G"]
+
+
+def test_what_reaches_the_shape_is_the_bent_weight_times_the_gain_and_at_most_one() -> None:
+    assert dict(bend_drawn((), 0.5))[1.0] == 0.5
+    drawn = dict(bend_drawn(((0.2, 0.1), (0.5, 0.8)), 1.5))
+    assert (drawn[0.0], drawn[0.2]) == pytest.approx((0.15, 0.15))  # the first key holds before it
+    assert (drawn[0.5], drawn[1.0]) == (1.0, 1.0)
+    assert set(dict(bend_drawn((), -1.0)).values()) == {0.0}

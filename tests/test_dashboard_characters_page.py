@@ -127,3 +127,58 @@ def test_what_can_not_be_added_is_answered_in_a_line(db) -> None:
         assert "/tmp" not in error.value
     assert db.store.revision == 1
     assert not list(db.store.characters_folder.glob("*"))
+
+
+@pytest.fixture
+def draft(db):
+    """Anna has halved the gain of *open* on the page and not saved it; Bob has saved another one for *W* since."""
+    shown = section("Links")
+    held = shown.session_state["rows_held"]["characters_links_robin"]
+    held.put("links", [{**row, "gain": 0.5} if row["pose"] == "open" else row for row in held.tables["links"]])
+    with db.edit(author="bob") as edit:
+        edit.put("characters/robin/links.tsv", {"pose": "W", "shape": "W", "gain": "0.7", "combine": "sum", "source": "user"})
+    shown = shown.run()
+    assert "1 row to save." in words(shown)
+    return shown
+
+
+def gains(db):
+    return {key[0]: row["gain"] for key, row in db.records.get("characters/robin/links.tsv", {}).items()}
+
+
+def test_a_draft_saves_what_its_visitor_changed_and_nothing_that_others_did(db, draft) -> None:
+    draft = draft.button(key="characters_links_robin_save").click().run()
+    assert "Saved as revision 3." in words(draft)
+    assert gains(db) == {"open": "0.5", "W": "0.7"}
+    assert dict(zip(*(draft.dataframe[0].value[column] for column in ("pose", "gain")), strict=True))["W"] == 0.7
+    draft = draft.button(key="characters_links_robin_undo").click().run()
+    assert "Revision 4 takes revision 3 back." in words(draft)
+    assert gains(db) == {"W": "0.7"}
+
+
+def test_a_draft_waits_in_other_sections_and_with_other_characters_until_it_is_discarded(db, draft) -> None:
+    draft.session_state["characters_section"] = "Rules"
+    draft = draft.run()
+    assert "Not saved yet elsewhere: links of robin." in words(draft)
+    draft.session_state["characters_section"] = "Links"
+    draft = draft.selectbox(key="characters_name").set_value("crab").run()
+    assert "0 row" not in words(draft)
+    draft = draft.selectbox(key="characters_name").set_value("robin").run()
+    assert "1 row to save." in words(draft)
+    assert "1 row to save." not in words(section("Links", visitor="bob"))
+    draft = draft.button(key="characters_links_robin_discard").click().run()
+    assert "Double-click a cell" in words(draft)
+    assert gains(db) == {"W": "0.7"}
+
+
+def test_the_links_of_a_pose_are_drawn_and_what_the_browser_draws_goes_into_the_table(db) -> None:
+    shown = section("Links")
+    [editor] = [json.loads(one.proto.json) for one in shown.get("bidi_component") if one.proto.component_name.endswith("keys")]
+    [lane] = editor["lanes"]
+    assert (lane["pose"], lane["keys"], lane["below"]) == ("open", None, [[0.0, 0.0], [1.0, 1.0]])
+    drawn = {"open": [[0, 0], [0.5, 0.2], [1, 1]]}
+    shown.session_state["characters_bends"] = {"curves": {"id": editor["id"], "taken": "", "curves": drawn}}
+    shown = shown.run()
+    assert shown.dataframe[0].value["curve"].tolist()[0] == "0:0 0.5:0.2 1:1"
+    shown = shown.button(key="characters_links_robin_save").click().run()
+    assert db.records["characters/robin/links.tsv"]["open", "open"]["curve"] == "0:0 0.5:0.2 1:1"

@@ -11,6 +11,7 @@ from page_cases import DASHBOARD, behind_pages
 from streamlit.testing.v1 import AppTest
 
 import lipdb
+from lipdb.curves.keys import format_keys
 
 PEAK = [[0.0, 0.0], [0.5, 0.9], [1.0, 0.0]]
 
@@ -46,6 +47,12 @@ def sent(page: AppTest) -> dict[str, Any]:
     return json.loads(found[0].json)
 
 
+def pair(page: AppTest) -> tuple[str, str]:
+    """The pair that is edited."""
+    data = sent(page)["pair"]
+    return data["left"], data["right"]
+
+
 def edit(page: AppTest, **curves: Any) -> AppTest:
     """What the editor sends when the visitor has changed *curves*, and the page after it."""
     data = sent(page)
@@ -70,7 +77,7 @@ def said(page: AppTest) -> str:
 def test_the_page_opens_with_a_pair_its_curves_and_its_sentence(db) -> None:
     page = curves_page(db)
     data = sent(page)
-    assert (data["left"], data["right"], data["locked"], data["silent"]) == ("l", "ow", False, [False, False])
+    assert (data["pair"]["left"], data["pair"]["right"], data["locked"], data["silent"]) == ("l", "ow", False, [False, False])
     assert [one["pose"] for one in data["lanes"]] == list(db.pose_set("facefx").poses)
     row = db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"]
     assert " ".join(f"{time:g}:{weight:g}" for time, weight in lane(page, "W")["keys"]) == row
@@ -104,6 +111,46 @@ def test_the_editor_keeps_its_steps_when_a_save_changed_nothing_else(db) -> None
     edit(page, W=[])
     press(page, "Save")
     assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == ""  # zero, not "no row"
+
+
+def test_undo_beside_saved_takes_exactly_that_revision_back(db) -> None:
+    before = db.records["curves/facefx.tsv"]["l", "ow", "W"]
+    page = edit(curves_page(db), W=PEAK)
+    press(page, "Save")
+    with db.edit(author="bob") as change:  # of something else, meanwhile
+        change.put("curves/facefx.tsv", {**db.records["curves/facefx.tsv"]["l", "ih", "W"], "keys": "0:0 0.5:0.2 1:0"})
+    page.button(key="curves_undo").click().run()
+    assert "Revision 4 takes revision 2 back." in said(page)
+    assert db.records["curves/facefx.tsv"]["l", "ow", "W"] == before
+    assert db.records["curves/facefx.tsv"]["l", "ih", "W"]["keys"] == "0:0 0.5:0.2 1:0"
+    assert format_keys(lane(page, "W")["keys"]) == before["keys"]
+    page.button(key="curves_undo").click().run()
+    assert lane(page, "W")["keys"] == PEAK
+
+
+def test_undo_beside_saved_is_refused_where_it_would_lose_somebody_elses_work(db) -> None:
+    page = edit(curves_page(db), W=PEAK)
+    press(page, "Save")
+    with db.edit(author="bob") as change:
+        change.put("curves/facefx.tsv", {**db.records["curves/facefx.tsv"]["l", "ow", "W"], "keys": "0:0 0.5:0.2 1:0"})
+    page.button(key="curves_undo").click().run()
+    assert "revision 2 not undone: bob changed the same in revision 3" in said(page)
+    assert db.store.revision == 3
+
+
+def test_a_pair_that_is_right_is_accepted_as_it_is_and_that_can_be_taken_back(db) -> None:
+    page = edit(curves_page(db), W=PEAK)
+    before = {pose: lane(page, pose)["keys"] for pose in ("open", "wide")}
+    press(page, "Accept as it is")
+    assert f"Saved l-ow, accepted as it is to common as revision {db.store.revision}." in said(page)
+    [use] = db.uses({("l", "ow"): 1.0}, language="en", character="robin")
+    assert (use.origin, use.gap) == ("authored", False)
+    assert db.store.history(limit=1)[0].note == "l-ow, accepted as it is"
+    assert {pose: lane(page, pose)["keys"] for pose in ("open", "wide")} == before
+    assert lane(page, "W")["keys"] == PEAK
+    assert next(button for button in page.button if button.label == "Accept as it is").disabled
+    page.button(key="curves_undo").click().run()
+    assert db.uses({("l", "ow"): 1.0}, language="en", character="robin")[0].gap
 
 
 def test_back_to_the_layer_below_takes_the_row_away(db) -> None:
@@ -143,10 +190,10 @@ def test_a_pair_through_links_is_saved_whole_and_clean_afterwards(db) -> None:
 def test_a_word_gives_its_pairs_in_any_language(db) -> None:
     page = curves_page(db)
     page.text_input(key="curves_word").set_value("papa").run()
-    assert (sent(page)["left"], sent(page)["right"]) == ("bmp", "aa")
+    assert pair(page) == ("bmp", "aa")
     page.session_state["curves_choice"].language = "cmn"
     page.text_input(key="curves_word").set_value("绿").run()
-    assert (sent(page)["left"], sent(page)["right"]) == ("l", "ue")
+    assert pair(page) == ("l", "ue")
     page.text_input(key="curves_word").set_value("low").run()
     assert "script" in said(page) or "--language" in said(page)
 
@@ -164,7 +211,7 @@ def test_unsaved_changes_wait_while_another_pair_is_looked_at(db) -> None:
     page = edit(curves_page(db), W=PEAK)
     page.session_state["curves_choice"].right = "ah"
     page.run()
-    assert sent(page)["right"] == "ah"
+    assert pair(page) == ("l", "ah")
     assert "Not saved yet elsewhere: l-ow" in said(page)
     page.session_state["curves_choice"].right = "ow"
     page.run()
@@ -216,7 +263,7 @@ def test_an_address_that_names_what_there_is_not_opens_the_page_all_the_same(db)
     for name, value in {"pair": "qq-ow", "language": "tlh", "character": "nobody", "kind": "line"}.items():
         page.query_params[name] = value
     page.run()
-    assert (sent(page)["left"], sent(page)["right"]) == ("l", "ow")
+    assert pair(page) == ("l", "ow")
 
 
 @pytest.fixture
@@ -243,6 +290,27 @@ def test_the_second_to_save_sees_both_versions_and_chooses(db, conflict, choice,
     conflict.run()
     assert "Not saved yet" not in said(conflict)
     assert [one.author for one in db.store.history("curves/facefx.tsv", ("l", "ow", "W"), limit=2)][-1] in ("bob", "lipdb")
+
+
+def test_the_second_to_save_chooses_row_by_row_and_nothing_is_chosen_for_them(db) -> None:
+    page = edit(curves_page(db), W=PEAK, open=PEAK, wide=PEAK)
+    theirs = "0:0 0.5:0.2 1:0"
+    with db.edit(author="bob") as change:
+        for pose in ("W", "open"):
+            change.put("curves/facefx.tsv", {**db.records["curves/facefx.tsv"]["l", "ow", pose], "keys": theirs})
+    page.run()
+    press(page, "Save")
+    seen = db.store.revision
+    assert next(button for button in page.button if button.key == "conflict_chosen").disabled
+    page.button_group(key=f"conflict_{seen}_0").set_value("Mine").run()
+    assert next(button for button in page.button if button.key == "conflict_chosen").label == "Choose for 1 more row"
+    page.button_group(key=f"conflict_{seen}_1").set_value("Theirs").run()
+    press(page, "Save as chosen")
+    rows = db.records["curves/facefx.tsv"]
+    mine = "0:0 0.5:0.9 1:0"  # of the first in the order of the poses, and of what nobody else has touched
+    assert {pose: rows["l", "ow", pose]["keys"] for pose in ("open", "W", "wide")} == {"open": mine, "W": theirs, "wide": mine}
+    page.run()
+    assert "Not saved yet" not in said(page)
 
 
 def test_whoever_goes_on_editing_keeps_everything_and_may_save_later(db, conflict) -> None:

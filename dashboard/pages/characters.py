@@ -8,7 +8,7 @@ from parts.character_links import links_editor
 from parts.character_overrides import overrides_table
 from parts.character_rules import rules_editor
 from parts.conflict import ask_again
-from parts.rows import names, told
+from parts.rows import names, unsaved
 from parts.session import database, shown_errors
 
 from lipdb.characters.overrides import overrides
@@ -58,23 +58,26 @@ with shown_errors():
     ask_again()
     name, sentence, language = chosen()
     own = len(overrides(database().records, name, language))
-    titles = {OWN: f"{OWN} ({own})"}
+    counted = {OWN: f"{OWN} ({own})"}
     section = st.segmented_control(
         "Section",
         [LINKS, POSES, RULES, OWN, ADD],
         default=LINKS,
         key="characters_section",
-        format_func=lambda one: titles.get(one, one),
+        format_func=lambda one: counted.get(one, one),
         label_visibility="collapsed",
     )
-    told()
+    waiting = st.empty()
+    edited = ""
     if section == POSES:
         gallery(name)
     elif section == RULES:
-        rules_editor(name, sentence, language)
+        edited = rules_editor(name, sentence, language)
     elif section == OWN:
         overrides_table(name, sentence, language)
     elif section == ADD:
         add_form()
     else:
-        links_editor(name, sentence, language)
+        edited = links_editor(name, sentence, language)
+    if titles := unsaved(other_than=edited):
+        waiting.caption(f":material/edit: Not saved yet elsewhere: {', '.join(titles)}.")

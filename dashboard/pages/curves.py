@@ -10,6 +10,7 @@ from parts import pairs
 from parts.conflict import Choice, ask_again, save_or_ask
 from parts.keys import Held, discard, editor, held, rebase, unsaved
 from parts.lines import spoken
+from parts.saved import show_saved, tell
 from parts.session import database, shown_errors, visitor
 from parts.stage import stage
 
@@ -19,7 +20,7 @@ from lipdb.curves.rehearse import Rehearsal, occurrences
 from lipdb.performance import Performance
 from lipdb.schedule import SILENCE
 
-SAVED, LOOP = "curves_saved", "curves_loop"
+LOOP = "curves_loop"
 
 
 def ask_layer(place: Place) -> Place:
@@ -124,22 +125,29 @@ def ask_save(now: Held) -> None:
     if not visitor().editor:
         return
     place = now.draft.place
-    copying, saving = st.columns([2, 5], vertical_alignment="bottom")
+    copying, saving = st.columns([2, 7], vertical_alignment="bottom")
     with copying:
         copy_from(now)
     with saving.form("curves_save", border=False):
-        note, button = st.columns([3, 1], vertical_alignment="bottom")
+        note, button, other = st.columns([4, 2, 3], vertical_alignment="bottom")
         text = note.text_input("Note for the history", key="curves_note", placeholder="why", max_chars=300)
         pressed = button.form_submit_button("Save", type="primary", disabled=not now.changed, width="stretch")
+        made = ", ".join(now.unfinished)
+        told = f"Nobody has drawn {made}. You have looked, and it is right: it becomes authored by you, and the pair leaves the to-do list."
+        done = "Every curve that moves is drawn, fitted or accepted."
+        accepted = other.form_submit_button(
+            "Accept as it is", icon=":material/done_all:", disabled=not made, help=told if made else done, width="stretch"
+        )
     if now.changed:
         left, right = st.columns([3, 1], vertical_alignment="center")
         left.caption(f":material/edit: Not saved yet: {', '.join(now.changed)}.{overtaken(now)}")
         right.button("Discard", key="curves_discard", on_click=partial(discard, place), width="stretch")
-    elif place in st.session_state.get(SAVED, {}):
-        st.success(st.session_state[SAVED][place], icon=":material/check:")
-    if pressed:
-        what = f"{place.pair}: {', '.join(now.changed)}"
-        save_or_ask(now.edits(), note=text.strip() or what, seen=now.seen, after=partial(saved, place, what))
+    else:
+        show_saved(place, key="curves")
+    if pressed or accepted:
+        what = f"{place.pair}: {', '.join(now.changed)}" if pressed else f"{place.pair}, accepted as it is"
+        edits = now.edits() if pressed else now.acceptance()
+        save_or_ask(edits, note=text.strip() or what, seen=now.seen, after=partial(saved, place, what))
 
 
 def overtaken(now: Held) -> str:
@@ -155,7 +163,7 @@ def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None
     rebase(place, keep=choice == "edit")
     if choice != "edit":
         done = f"Saved {what} to {place.layer} as revision {revision}." if revision else "Theirs stays; nothing of yours had to be saved."
-        st.session_state.setdefault(SAVED, {})[place] = done
+        tell(place, done, revision)
         st.rerun()
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import streamlit as st
+from parts.character_bends import bends_editor
 from parts.lines import spoken
-from parts.rows import Rows, hold, save_button, table, text
+from parts.rows import Cells, Held, Rows, hold, save_button, table, text
+from parts.saved import show_saved
 from parts.session import database
 from parts.stage import stage
 
@@ -19,51 +22,72 @@ from lipdb.performance import Performance
 SENTENCE = "the sentence"
 
 
-def links_editor(name: str, sentence: str, language: str) -> None:
-    """The table of links on the left, on the right the face as they are now. Raises `LipdbError`."""
+def links_editor(name: str, sentence: str, language: str) -> str:
+    """The table of links on the left, on the right the face as they are now; the name of the editor. Raises `LipdbError`."""
     db = database()
     who = db.character(name)
     poses = db.pose_set(who.pose_set).poses
     shapes = sorted(who.mesh.shape_names if who.mesh else who.pictures)
-    held = hold(f"characters_links_{name}", lambda: {"links": _cells(name)})
+    key = f"characters_links_{name}"
+    held = hold(key, f"links of {name}", lambda: {"links": _cells(name)})
     left, right = st.columns([3, 2])
+    with right:
+        pose, speaking = _ask_shown(name, poses)
     with left:
-        doubtful = sum(row["doubtful"] for row in held.tables["links"])
-        if doubtful:
-            lead = "links lead to shapes" if doubtful > 1 else "link leads to a shape"
-            st.warning(f"{doubtful} {lead} of a name that is only alike: look at it, change it, or untick “doubtful”.")
-        columns = {
-            "pose": st.column_config.SelectboxColumn("Pose", options=list(poses), required=True),
-            "shape": st.column_config.SelectboxColumn("Shape", options=shapes, required=True),
-            "gain": st.column_config.NumberColumn("Gain", step=0.05, default=1.0, required=True),
-            "combine": st.column_config.SelectboxColumn("Combine", options=["sum", "max"], default="sum", required=True),
-            "curve": st.column_config.TextColumn("Curve", help="Bends the weight before the gain: 0:0 0.5:0.2 1:1. Empty: straight."),
-            "own": st.column_config.CheckboxColumn("Own", disabled=True, help="The character's own, not the shared table's."),
-        }
-        if doubtful:
-            mark = st.column_config.CheckboxColumn("Doubtful", help="Matched by a name that is only alike.")
-            columns = {"doubtful": mark, **columns}
-        edited = table(f"characters_links_{name}", held, "links", columns, rows="dynamic")
-    wanted = [_row(row, held.tables["links"]) for row in edited]
-    path = own_table(name)
-    rows: Rows = {}
-    try:
-        rows = {(path, key): row for key, row in link_rows(db.records, name, wanted).items()}
-    except LipdbError as error:
-        left.error(str(error), icon=":material/error:")
-    with left:
+        edited = _links_table(held, poses, shapes)
+        try:
+            given = held.base.records
+            rows: Rows = {(own_table(name), link): row for link, row in link_rows(given, name, _wanted(edited, held)).items()}
+            bends_editor(name, held, pose)
+        except LipdbError as error:
+            rows = {}
+            st.error(str(error), icon=":material/error:")
         count = len(rows)
         st.caption(f"{count} row{'s' * (count != 1)} to save." if count else "Double-click a cell to change it; the face follows.")
-        save_button(f"characters_links_{name}", held, rows, note=f"Links of {name}")
+        show_saved(key, key=key)
+        save_button(key, held, rows, note=f"Links of {name}")
     with right:
-        shown = st.selectbox("Show", [*poses, SENTENCE], key=f"characters_shown_{name}", help="A pose is raised and lowered in a loop.")
+        shown = SENTENCE if speaking else pose
         performance = _performance(name, shown, sentence, language, db.store.revision, str(sorted(rows.items(), key=str)), rows)
-        loop = None if shown == SENTENCE else (0.0, float(performance.track.times[-1]))
+        loop = None if speaking else (0.0, float(performance.track.times[-1]))
         stage([performance], key="characters_links_stage", autoplay=True, loop=loop)
+    return key
 
 
-def _cells(name: str) -> list[dict[str, Any]]:
-    """The links as the table shows them."""
+def _ask_shown(name: str, poses: Sequence[str]) -> tuple[str, bool]:
+    """The pose whose links are looked at, and whether the sentence is played instead of it."""
+    left, right = st.columns(2, vertical_alignment="bottom")
+    pose = left.selectbox("Pose", poses, key=f"characters_pose_{name}", persist_state="session", help="It is raised and lowered in a loop.")
+    return pose, right.toggle("Play the sentence", key="characters_speaking", persist_state="session")
+
+
+def _links_table(held: Held, poses: Sequence[str], shapes: Sequence[str]) -> Cells:
+    doubtful = sum(row.get("doubtful", False) for row in held.tables["links"])
+    if doubtful:
+        lead = "links lead to shapes" if doubtful > 1 else "link leads to a shape"
+        st.warning(f"{doubtful} {lead} of a name that is only alike: look at it, change it, or untick “doubtful”.")
+    columns = {
+        "pose": st.column_config.SelectboxColumn("Pose", options=list(poses), required=True),
+        "shape": st.column_config.SelectboxColumn("Shape", options=list(shapes), required=True),
+        "gain": st.column_config.NumberColumn("Gain", step=0.05, default=1.0, required=True),
+        "combine": st.column_config.SelectboxColumn("Combine", options=["sum", "max"], default="sum", required=True),
+        "curve": st.column_config.TextColumn("Curve", help="Bends the weight before the gain; drawn below. Empty: straight."),
+        "own": st.column_config.CheckboxColumn("Own", disabled=True, help="The character's own, not the shared table's."),
+    }
+    if doubtful:
+        mark = st.column_config.CheckboxColumn("Doubtful", help="Matched by a name that is only alike.")
+        columns = {"doubtful": mark, **columns}
+    return table(held, "links", columns, rows="dynamic")
+
+
+def _wanted(edited: Cells, held: Held) -> list[Row]:
+    return [_row(row, held.tables["links"]) for row in edited]
+
+
+def _cells(name: str) -> Cells:
+    """The links as the table shows them; doubts have a column where there are any."""
+    links = links_of(database().records, name)
+    doubts = any(link.doubtful for link in links)
     return [
         {
             "pose": link.row["pose"],
@@ -72,16 +96,16 @@ def _cells(name: str) -> list[dict[str, Any]]:
             "combine": link.row["combine"],
             "curve": link.row["curve"],
             "own": link.own,
-            "doubtful": link.doubtful,
+            **({"doubtful": link.doubtful} if doubts else {}),
         }
-        for link in links_of(database().records, name)
+        for link in links
     ]
 
 
-def _row(cells: dict[str, Any], before: list[dict[str, Any]]) -> Row:
+def _row(cells: dict[str, Any], before: Cells) -> Row:
     """The link that *cells* say; its comment stays, unless somebody ended a doubt."""
     row = {column: text(cells.get(column)) for column in ("pose", "shape", "gain", "combine", "curve")}
-    doubted = any((one["pose"], one["shape"]) == (row["pose"], row["shape"]) and one["doubtful"] for one in before)
+    doubted = any((one["pose"], one["shape"]) == (row["pose"], row["shape"]) and one.get("doubtful") for one in before)
     return {**row, "comment": ""} if doubted and not cells.get("doubtful") else row
 
 

@@ -8,6 +8,7 @@ import streamlit as st
 from parts.compare import draw_versions
 from parts.lines import played, spoken
 from parts.rows import Rows, save_rows
+from parts.saved import show_saved
 from parts.session import database, visitor
 from parts.stage import stage
 
@@ -23,6 +24,7 @@ def overrides_table(name: str, sentence: str, language: str) -> None:
     """The table, what was chosen in it as curves and as faces, and the buttons that take it away. Raises `LipdbError`."""
     db = database()
     seen = db.store.revision
+    show_saved(_place(name), key=_place(name))
     found = overrides(db.records, name, language)
     if not found:
         st.info("This character has nothing of its own. In Curves, save to the layer of this character.")
@@ -50,6 +52,11 @@ def overrides_table(name: str, sentence: str, language: str) -> None:
     stage([played(spoken(said, language), name), without], key="characters_overrides_stage")
 
 
+def _place(name: str) -> str:
+    """What was reset last is told for each character."""
+    return f"characters_overrides_{name}"
+
+
 def _resets(name: str, found: list[Override], chosen: list[Override], seen: int) -> None:
     if not visitor().editor:
         return
@@ -59,11 +66,11 @@ def _resets(name: str, found: list[Override], chosen: list[Override], seen: int)
     label = f"Reset {count} row{'s' * (count > 1)}" if count else "Reset what is ticked"
     if left.button(label, key="characters_reset", icon=":material/undo:", disabled=not chosen, width="stretch"):
         what = ", ".join(one.name for one in chosen[:3]) + (" …" if len(chosen) > 3 else "")
-        save_rows(with_siblings(records, chosen), note=f"Reset of {name}: {what}", seen=seen)
+        save_rows(with_siblings(records, chosen), note=f"Reset of {name}: {what}", seen=seen, name=_place(name))
     with right.popover("Reset all", icon=":material/restart_alt:", width="stretch"):
         st.write(f"All {len(found)} rows go back to what is inherited. History can take that back.")
         if st.button("Reset all of them", key="characters_reset_all", type="primary"):
-            save_rows(with_siblings(records, found), note=f"Reset everything of {name}", seen=seen)
+            save_rows(with_siblings(records, found), note=f"Reset everything of {name}", seen=seen, name=_place(name))
 
 
 @st.cache_resource(max_entries=16, show_spinner=False)

@@ -7,45 +7,51 @@ from typing import Any
 
 import streamlit as st
 from parts.lines import played, spoken
-from parts.rows import Rows, changed, hold, save_button, table, text
+from parts.rows import Cells, Rows, changed, hold, save_button, table, text
+from parts.saved import show_saved
 from parts.session import database
 from parts.stage import stage
 
-from lipdb.curated.tsv import Row
+from lipdb.curated.tsv import Records, Row
 from lipdb.errors import LipdbError, PhonesetError
 from lipdb.performance import Performance
 from lipdb.poses import PoseSet
 
 
-def rules_editor(name: str, sentence: str, language: str) -> None:
-    """The tables of the character's pose set, and the sentence with and without what was changed. Raises `LipdbError`."""
+def rules_editor(name: str, sentence: str, language: str) -> str:
+    """The tables of the character's pose set, and the sentence with and without what was changed; the name of the editor.
+
+    Raises `LipdbError`.
+    """
     db = database()
     pose_set = db.character(name).pose_set
     users = [row["character"] for row in db.characters() if row["pose_set"] == pose_set]
     st.info(f"These rules belong to the pose set {pose_set}: they count for {', '.join(users)}, in every language and every line.")
     key = f"characters_rules_{pose_set}"
-    held = hold(key, lambda: _cells(pose_set))
+    held = hold(key, f"rules of {pose_set}", lambda: _cells(pose_set))
     left, right = st.columns([3, 2])
     with left:
         st.write("**Poses.** The higher priority wins where two meet; no priority yields to all that have one.")
-        poses = table(key, held, "poses", _pose_columns(), rows="fixed")
+        poses = table(held, "poses", _pose_columns(), rows="fixed")
     with right:
         st.write("**Thresholds.** Two weights together are at most this; 2 binds nothing.")
-        thresholds = table(key, held, "thresholds", _threshold_columns([row["pose"] for row in poses]), rows="dynamic")
-        whole = table(key, held, "whole", _whole_columns(), rows="fixed")
+        thresholds = table(held, "thresholds", _threshold_columns([row["pose"] for row in poses]), rows="dynamic")
+        whole = table(held, "whole", _whole_columns(), rows="fixed")
     rows: Rows = {}
     try:
-        rows = _rows(pose_set, poses, thresholds, whole[0])
+        rows = _rows(held.base.records, pose_set, poses, thresholds, whole[0])
         PoseSet.from_records(db.supposing(rows).records, pose_set)
     except LipdbError as error:
         rows = {}
         st.error(str(error), icon=":material/error:")
+    show_saved(key, key=key)
     save_button(key, held, rows, note=f"Rules of {pose_set}")
     line = spoken(sentence, language)
     performances = [played(line, name)]
     if rows:
         performances.append(_changed(sentence, language, name, db.store.revision, str(sorted(rows.items(), key=str)), rows))
     stage(performances, key="characters_rules_stage")
+    return key
 
 
 @st.cache_resource(max_entries=16, show_spinner=False)
@@ -55,7 +61,7 @@ def _changed(sentence: str, language: str, name: str, revision: int, rows_key: s
     return trial.animate(spoken(sentence, language), character=replace(who, title=f"{who.title or name}, changed"))
 
 
-def _cells(pose_set: str) -> dict[str, list[dict[str, Any]]]:
+def _cells(pose_set: str) -> dict[str, Cells]:
     records = database().records
     poses = sorted(records[f"poses/{pose_set}.tsv"].values(), key=lambda row: int(row["position"]))
     whole = records["poses/sets.tsv"][pose_set,]
@@ -78,9 +84,8 @@ def _cells(pose_set: str) -> dict[str, list[dict[str, Any]]]:
     }
 
 
-def _rows(pose_set: str, poses: list[dict[str, Any]], thresholds: list[dict[str, Any]], whole: dict[str, Any]) -> Rows:
-    """What saving the tables writes. Raises `PhonesetError`."""
-    records = database().records
+def _rows(records: Records, pose_set: str, poses: Cells, thresholds: Cells, whole: dict[str, Any]) -> Rows:
+    """What saving the tables, which were read from *records*, writes. Raises `PhonesetError`."""
     path, constraints = f"poses/{pose_set}.tsv", f"constraints/{pose_set}.tsv"
     known, bounds = records[path], records.get(constraints, {})
     new_poses = {}

@@ -1,8 +1,8 @@
-"""Somebody else saved the same first: a dialog that shows both versions and asks which one is to stay."""
+"""Somebody else saved the same first: a dialog that shows both versions and asks which one is to stay, for each row or for all."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,11 +11,13 @@ from parts.lines import state
 from parts.session import Edited, save, shown_errors
 from parts.versions import curves_chart
 
-from lipdb.curated.tsv import Row
+from lipdb.curated.tsv import Key, Row
 from lipdb.curves.keys import Keys, parse_keys
 from lipdb.store.conflict import EditConflictError, Versions
 
-Choice = Literal["mine", "theirs", "edit"]
+Choice = Literal["mine", "theirs", "chosen", "edit"]
+Place = tuple[str, Key]
+MINE, THEIRS = "Mine", "Theirs"
 ASKED = "conflict_asked"
 ABSENT = "not there: the layer below counts"
 
@@ -33,7 +35,8 @@ def save_or_ask(edits: Sequence[Edited], *, note: str, seen: int, after: Callabl
     """Save *edits* as `save` does; when somebody saved the same since *seen*, ask what is to stay.
 
     *after* is told in the end what was chosen and the revision that it made: ``mine`` (also when nobody was in the way),
-    ``theirs`` (the visitor's other rows are saved all the same) or ``edit`` (nothing was saved). Raises `LipdbError`.
+    ``theirs`` (the visitor's other rows are saved all the same), ``chosen`` (row by row) or ``edit`` (nothing was saved).
+    Raises `LipdbError`.
     """
     try:
         after("mine", save(edits, note=note, seen=seen))
@@ -56,20 +59,41 @@ def _dismissed() -> None:
 def _ask() -> None:
     asked: _Asked = st.session_state[ASKED]
     error = asked.error
-    rows = "row" if len(error.conflicts) == 1 else "rows"
-    what = f"{len(error.conflicts)} {rows} that you changed too, in revision {error.revision}"
+    several = len(error.conflicts) > 1
+    what = f"{len(error.conflicts)} row{'s' * several} that you changed too, in revision {error.revision}"
     st.write(f"{error.author} changed {what}. Nothing of yours is saved yet.")
-    for versions in error.conflicts:
+    chosen = {}
+    for number, versions in enumerate(error.conflicts):
         _both(versions, asked.seen)
+        if several:
+            key = f"conflict_{error.revision}_{number}"
+            chosen[versions.path, versions.key] = st.segmented_control(
+                "Which one stays", (MINE, THEIRS), key=key, label_visibility="collapsed"
+            )
+    if several:
+        _save_chosen(asked, chosen)
     left, middle, right = st.columns(3)
-    lost = {(one.path, one.key) for one in error.conflicts}
+    every = "all " * several
     with shown_errors():
-        if left.button("Save mine over theirs", key="conflict_mine", width="stretch"):
+        if left.button(f"Save {every}mine over theirs", key="conflict_mine", width="stretch"):
             _answer(asked, "mine", asked.edits)
-        if middle.button("Keep theirs", key="conflict_theirs", width="stretch", help="Your other changes are saved."):
-            _answer(asked, "theirs", [one for one in asked.edits if (one.table, one.key) not in lost])
+        if middle.button(f"Keep {every}theirs", key="conflict_theirs", width="stretch", help="Your other changes are saved."):
+            _answer(asked, "theirs", _without(asked, [(one.path, one.key) for one in error.conflicts]))
         if right.button("Go on editing", key="conflict_edit", width="stretch", help="Nothing is saved; your version stays in the editor."):
             _answer(asked, "edit", ())
+
+
+def _save_chosen(asked: _Asked, chosen: Mapping[Place, str | None]) -> None:
+    """The button for rows that were chosen one by one. None is chosen to begin with, so that none is lost unseen."""
+    left = sum(choice is None for choice in chosen.values())
+    label = f"Choose for {left} more row{'s' * (left > 1)}" if left else "Save as chosen"
+    with shown_errors():
+        if st.button(label, key="conflict_chosen", type="primary", disabled=bool(left), help="Your other changes are saved too."):
+            _answer(asked, "chosen", _without(asked, [place for place, choice in chosen.items() if choice == THEIRS]))
+
+
+def _without(asked: _Asked, places: Collection[Place]) -> list[Edited]:
+    return [one for one in asked.edits if (one.table, one.key) not in places]
 
 
 def _answer(asked: _Asked, choice: Choice, edits: Sequence[Edited]) -> None:

@@ -44,6 +44,16 @@ class Held:
         """What saving does."""
         return [Edited(self.draft.place.table, key, row) for key, row in self.draft.rows(self.curves).items()]
 
+    @property
+    def unfinished(self) -> list[str]:
+        """The poses that move as a program made them."""
+        return self.draft.unfinished(self.curves)
+
+    def acceptance(self) -> list[Edited]:
+        """What saving does when the visitor accepts the pair as it is."""
+        table = self.draft.place.table
+        return [Edited(table, key, row, accepted=True) for key, row in self.draft.accepted(self.curves).items()]
+
     def give(self, curves: Curves) -> None:
         """Take over *curves* of some poses, as a step that the visitor can undo."""
         self.curves = {**self.curves, **curves}
@@ -129,12 +139,9 @@ def editor(now: Held, drawn: Mapping[str, Keys], *, stage: str, span: tuple[floa
     ]
     data = {
         "id": now.token,
-        "left": place.left,
-        "right": place.right,
-        "lengths": now.lengths,
+        "pair": {"left": place.left, "right": place.right, "lengths": now.lengths, "playing": {"stage": stage, "span": span}},
         "lanes": lanes,
         "locked": not visitor().editor,
-        "playing": {"stage": stage, "span": span},
         "silent": [place.left == SILENCE, place.right == SILENCE],
         "given": now.given,
     }

@@ -143,11 +143,12 @@ def writable() -> tuple[Database, str]:
 
 @dataclass(frozen=True, slots=True)
 class Edited:
-    """One row to save: None as *row* takes it away."""
+    """One row to save: None as *row* takes it away. An *accepted* one becomes the visitor's own even if nothing in it changes."""
 
     table: str
     key: Key
     row: Row | None
+    accepted: bool = False
 
 
 def save(edits: Sequence[Edited], *, note: str, seen: int) -> int | None:
@@ -162,7 +163,7 @@ def save(edits: Sequence[Edited], *, note: str, seen: int) -> int | None:
             if one.row is None:
                 edit.delete(one.table, one.key, expected_revision=seen)
             else:
-                edit.put(one.table, one.row, expected_revision=seen)
+                edit.put(one.table, one.row, expected_revision=seen, accepted=one.accepted)
     return edit.revision
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from lipdb.curves.keys import Keys
 from lipdb.curves.through import Link
 from lipdb.track import Track
 
@@ -28,7 +29,8 @@ def through_links(track: Track, links: Sequence[Link]) -> Track:
     largest = np.zeros_like(sums)
     for link in links:
         column = shapes.index(link.shape)
-        weight = link.gain * _bent(track, link)
+        given = track.pose(link.pose) if link.pose in track.poses else np.zeros(len(track.weights))
+        weight = link.gain * bent(given, link.curve)
         if link.combine == "max":
             np.maximum(largest[:, column], weight, out=largest[:, column])
         else:
@@ -36,13 +38,12 @@ def through_links(track: Track, links: Sequence[Link]) -> Track:
     return Track(np.clip(np.maximum(sums, largest), 0.0, 1.0), shapes, track.fps)
 
 
-def _bent(track: Track, link: Link) -> NDArray[np.float64]:
-    """The weights of the link's pose, sent through its curve."""
-    weight = track.pose(link.pose) if link.pose in track.poses else np.zeros(len(track.weights))
-    if not link.curve:
-        return weight
-    at, value = np.array(link.curve).T
-    return np.asarray(np.interp(weight, at, value))
+def bent(weights: NDArray[np.float64], curve: Keys) -> NDArray[np.float64]:
+    """*weights* of a pose, sent through the *curve* of a link; without keys they stay."""
+    if not curve:
+        return weights
+    at, value = np.array(curve).T
+    return np.asarray(np.interp(weights, at, value))
 
 
 def closing_shapes(links: Sequence[Link], must_reach: Sequence[str]) -> tuple[str, ...]:

@@ -5,15 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from lipdb.characters.links import identity_links
+import numpy as np
+
+from lipdb.characters.links import bent, identity_links
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row
+from lipdb.curves.keys import Keys
 from lipdb.errors import InputError
 from lipdb.poses import PoseSet
 
 VALUES = ("gain", "combine", "curve")
 DOUBTFUL = "doubtful"
 SOURCE = "user"
+STRAIGHT: Keys = ((0.0, 0.0), (1.0, 1.0))
+"""What a link without a curve does."""
+SAMPLES = 50
+"""Parts in which the weight of a pose is cut to draw what a link makes of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +89,14 @@ def link_rows(records: Records, name: str, wanted: Sequence[Mapping[str, str]]) 
             result[key] = _kept({**row, "gain": "0", "comment": own[key]["comment"] if key in own else ""}, own.get(key))
     result |= {key: None for key in own if key not in result}
     return {key: row for key, row in result.items() if row != own.get(key)}
+
+
+def bend_drawn(keys: Keys, gain: float) -> Keys:
+    """The weight of the shape, 0..1, that a link with *gain* and the curve *keys* makes of weights 0..1 of its pose."""
+    inner = {time for time, _ in keys} | {k / SAMPLES for k in range(SAMPLES + 1)}
+    weights = np.array(sorted(inner))
+    made = np.clip(gain * bent(weights, keys), 0.0, 1.0)
+    return tuple(zip(weights.tolist(), made.tolist(), strict=True))
 
 
 def _checked(name: str, given: Mapping[str, str], poses: Sequence[str]) -> Row:

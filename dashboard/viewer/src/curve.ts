@@ -17,21 +17,27 @@ export interface Lane {
   drawn: Key[];
 }
 
-export interface KeysData {
-  /** Changes when another curve is to be edited; the editor then forgets what it had. */
-  id: string;
+export interface Pair {
   left: string;
   right: string;
   /** Seconds that the two phones last in what is drawn and played. */
   lengths: [number, number];
-  lanes: Lane[];
-  locked: boolean;
   /** The stage that plays the pair, and where it begins, its border and its end, in seconds. */
   playing: { stage: string; span: [number, number, number] };
+}
+
+export interface KeysData {
+  /** Changes when another curve is to be edited; the editor then forgets what it had. */
+  id: string;
+  /** The pair of phones over whose time the curves go; without it they go over what `axis` names. */
+  pair?: Pair;
+  axis?: string;
+  lanes: Lane[];
+  locked: boolean;
   /** Whether the curve comes out of silence, or goes into it: it has to be at rest there. */
   silent: [boolean, boolean];
   /** Curves to take over as one step that can be undone, once for each token. */
-  given: { token: string; curves: Curves } | null;
+  given?: { token: string; curves: Curves } | null;
 }
 
 export const GRID = 0.05;
@@ -66,6 +72,11 @@ export function normalised(time: number, [start, border, end]: [number, number, 
 export function rested(keys: Key[], silent: [boolean, boolean]): Key[] {
   const last = keys.length - 1;
   return keys.map(([time, weight], k) => [time, (silent[0] && k === 0) || (silent[1] && k === last) ? 0 : weight]);
+}
+
+/** `keys` as a curve that keeps its first and last weight beyond them. */
+export function held(keys: Key[]): Key[] {
+  return keys.length ? [[0, keys[0][1]], ...keys, [1, keys[keys.length - 1][1]]] : [];
 }
 
 /** Key `k` moved to `to`, between its neighbours. */

@@ -112,22 +112,29 @@ class Editor {
     clearTimeout(this.timer);
     this.id = data.id;
     this.token = data.given?.token ?? "";
+    this.all.textContent = data.pair ? "Reset pair" : "All straight";
+    this.all.title = data.pair ? "Leave every pose to the layer below" : "Let every weight through as it is";
+    this.rest.hidden = !data.pair;
     [this.past, this.future] = [[], []];
     this.now = copy(Object.fromEntries(data.lanes.map(({ pose, keys }) => [pose, keys])));
-    const few = data.lanes.length <= FEW;
+    const few = !data.pair || data.lanes.length <= FEW;
     this.rest.setAttribute("aria-pressed", String(few));
     this.lanes.classList.toggle("moving", !few);
     const events = {
       changed: () => this.step(this.curves()),
       snapping: () => this.snapping,
       locked: () => this.locked,
+      holds: () => !this.component?.data.pair,
       silent: () => this.component?.data.silent ?? ([false, false] as [boolean, boolean]),
     };
     this.views = new Map(data.lanes.map(({ pose }) => [pose, new LaneView(pose, events)]));
     this.lanes.replaceChildren(...[...this.views.values()].map((view) => view.root), this.playhead);
-    this.lengths = [...data.lengths];
-    const names = [data.left, data.right].map((phone, k) => this.name(phone, k));
-    this.head.replaceChildren(document.createElement("span"), ...names);
+    if (data.pair) this.lengths = [...data.pair.lengths];
+    const names = data.pair && [data.pair.left, data.pair.right].map((phone, k) => this.name(phone, k));
+    const axis = document.createElement("span");
+    axis.className = "axis";
+    axis.textContent = data.axis ?? "";
+    this.head.replaceChildren(document.createElement("span"), ...(names ?? [axis]));
   }
 
   /** A phone over its half of the lanes, with how long it lasts. */
@@ -173,7 +180,7 @@ class Editor {
 
   /** The playhead of the stage that plays the pair, over the lanes. */
   private follow({ stage, time }: { stage: string; time: number }): void {
-    const playing = this.component?.data.playing;
+    const playing = this.component?.data.pair?.playing;
     if (!playing || stage !== playing.stage) return;
     const at = normalised(time, playing.span);
     this.playhead.hidden = at === null;

@@ -1,9 +1,10 @@
 // One pose of the curve editor: its keys, the layer below, and what the engine makes of them.
 
-import { added, GRID, moved, rested, round, type Key, type Lane } from "./curve";
+import { added, GRID, held, moved, rested, round, type Key, type Lane } from "./curve";
 import { icon } from "./icons";
 
-const HEIGHT = 50;
+/** Pixels of a lane over time, and of one from weights to weights. */
+const HEIGHTS = [50, 120];
 export const PAD = 7;
 const SIZE = 6;
 const ZERO: Key[] = [[0, 0], [1, 0]];
@@ -24,6 +25,8 @@ export interface LaneEvents {
   snapping(): boolean;
   locked(): boolean;
   silent(): [boolean, boolean];
+  /** Whether the first and the last key hold beyond them; else the curve is at rest there. */
+  holds(): boolean;
 }
 
 export class LaneView {
@@ -81,12 +84,16 @@ export class LaneView {
     this.paint();
   }
 
+  private get height(): number {
+    return HEIGHTS[Number(this.events.holds())];
+  }
+
   private x(time: number): number {
     return PAD + time * (this.width - 2 * PAD);
   }
 
   private y(weight: number): number {
-    return HEIGHT - PAD - weight * (HEIGHT - 2 * PAD);
+    return this.height - PAD - weight * (this.height - 2 * PAD);
   }
 
   private points(keys: Key[]): string {
@@ -97,17 +104,17 @@ export class LaneView {
     const box = this.plot.getBoundingClientRect();
     const snapped = (value: number): number => (this.events.snapping() && !event.altKey ? Math.round(value / GRID) * GRID : value);
     const time = (event.clientX - box.left - PAD) / (this.width - 2 * PAD);
-    const weight = (HEIGHT - PAD - (event.clientY - box.top)) / (HEIGHT - 2 * PAD);
+    const weight = (this.height - PAD - (event.clientY - box.top)) / (this.height - 2 * PAD);
     return [round(snapped(time)), round(snapped(weight))];
   }
 
   /** What does not change while keys are dragged. */
   private frame(): void {
-    set(this.plot, { width: this.width, height: HEIGHT });
+    set(this.plot, { width: this.width, height: this.height });
     const across = [0, 0.5, 1].map((weight) => svg("line", { x1: this.x(0), x2: this.x(1), y1: this.y(weight), y2: this.y(weight) }));
     const up = [0, 0.25, 0.5, 0.75, 1].map((time) => {
       const line = svg("line", { x1: this.x(time), x2: this.x(time), y1: this.y(0), y2: this.y(1) });
-      if (time === 0.5) line.classList.add("border");
+      if (time === 0.5 && !this.events.holds()) line.classList.add("border");
       return line;
     });
     this.grid.replaceChildren(...across, ...up);
@@ -129,7 +136,8 @@ export class LaneView {
     this.root.classList.toggle("still", !keys.length && !this.lane?.below.length);
     this.reset.hidden = !own || this.events.locked();
     this.state.textContent = own ? (keys.length ? "" : "zero") : (this.lane?.from ?? "");
-    for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(keys.length ? keys : ZERO));
+    const whole = this.events.holds() ? held(keys) : keys;
+    for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(whole.length ? whole : ZERO));
     while (this.handles.length > keys.length) this.handles.pop()?.remove();
     while (this.handles.length < keys.length) this.handles.push(this.handle(this.handles.length));
     this.handles.forEach((handle, k) => {
@@ -212,7 +220,8 @@ export class LaneView {
 
   private remove(k: number): void {
     const place = Math.min(k, this.counting.length - 2);
-    this.replace(this.counting.filter((_, i) => i !== k));
+    const left = this.counting.filter((_, i) => i !== k);
+    this.replace(this.events.holds() && !left.length ? null : left);
     this.handles[place]?.focus();
   }
 
