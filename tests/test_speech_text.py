@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lipdb.errors import InputError
-from lipdb.speech.text import check_script, clean
+from lipdb.speech.text import check_script, clean, is_ordinary
 
 
 @pytest.mark.parametrize("text", ["", " \n\t", "...", "?!", "😀😀", "\x00\x07", "—", "_", "\ud800", "\u200b"])
@@ -134,3 +134,26 @@ def test_any_text_is_cleaned_or_refused(text: str):
     cleaned.text.encode("utf-8")
     assert cleaned.text == clean(cleaned.text).text
     assert not any(ord(c) < 32 for c in cleaned.text)
+
+
+@pytest.mark.parametrize(
+    ("text", "script"),
+    [("“Well, I'm off,” he said.", "Latn"), ("Übung, café", "Latn"), ("Привет, мир!", "Cyrl"), ("नमस्ते", "Deva"), ("你好", "Hans")],
+)
+def test_words_and_signs_without_a_name_are_ordinary(text: str, script: str):
+    assert is_ordinary(text, script)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "...", " a", "a ", "a  b", "a..b", "a\tb", "a5", "a & b", "1", "50 %", "😀 a", "cafe\u0301", "ﬁne", "a привет", "x" * 61, "a\0b"],
+)
+def test_what_has_to_be_looked_at_is_not_ordinary(text: str):
+    assert not is_ordinary(text, "Latn")
+
+
+@given(st.text(st.sampled_from("abc é\u0301'.,-5%ｈﬁж你\u0651\u200d😀\t\x07")), st.sampled_from(["Latn", "Cyrl", "Hans", "Xxxx"]))
+def test_ordinary_text_is_left_as_it_is(text: str, script: str):
+    if is_ordinary(text, script):
+        assert clean(text) == (text, ())
+        check_script(text, script, language="xx")

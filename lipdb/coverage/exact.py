@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from array import array
-from collections import Counter as Tally
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,37 +54,35 @@ class ExactCounter:
     def count(self, lines: Lines) -> Counts:
         """The pairs of every line, a pause wherever the voice makes one."""
         speaker = _speaker(self.voice)
-        alike = Tally(zip(lines.document.tolist(), lines.texts.to_pylist(), strict=True))
-        codes, lengths, spoken = array("H"), [], np.zeros(len(lines.names), np.int64)
-        findings: dict[tuple[int, str], tuple[int, str]] = {}
-        said_all = speaker.say_all([text for _, text in alike])
-        for ((document, text), times), said in zip(alike.items(), said_all, strict=True):
-            codes.extend(said.codes)
-            lengths.append(len(said.codes))
-            if said.codes:
-                spoken[document] += times
-            for reason in said.reasons:
-                before, example = findings.get((document, reason), (0, ""))
-                findings[document, reason] = before + times, min(example, text) if before else text
+        different = lines.texts.dictionary_encode()
+        texts: list[str] = different.dictionary.to_pylist()
+        said = speaker.say_all(texts)
+        # What is alike in a document is counted once, as often as it comes.
+        alike, times = np.unique(lines.document.astype(np.int64) * len(texts) + different.indices.to_numpy(), return_counts=True)
+        document, line = np.divmod(alike, max(len(texts), 1))
+        spoken = np.bincount(document, times * np.array([bool(codes) for codes, _ in said], bool)[line], len(lines.names))
         return Counts.of(
-            pairs=_pairs(lines, alike, np.array(lengths, np.int64), np.asarray(codes), speaker.labels),
-            findings=_findings(lines, findings),
-            documents=_documents(lines, spoken),
+            pairs=_pairs(lines, document, times, [said[k][0] for k in line.tolist()], speaker.labels),
+            findings=_findings(lines, document, times, [(texts[k], said[k][1]) for k in line.tolist()]),
+            documents=_documents(lines, spoken.astype(np.int64)),
         )
 
 
-def _pairs(
-    lines: Lines, alike: dict[tuple[int, str], int], lengths: NDArray[np.int64], codes: NDArray[np.uint16], labels: list[str]
-) -> pa.Table:
-    if not len(codes):
-        return pair_table(lines, np.zeros(0, np.int64), codes, labels)
-    document = np.repeat([document for document, _ in alike], lengths)
-    times = np.fromiter(alike.values(), np.int64)
-    return pair_table(lines, document, codes, labels, np.repeat(times, lengths) if times.max() > 1 else None)
+def _pairs(lines: Lines, document: NDArray[np.int64], times: NDArray[np.int64], said: Sequence[bytes], labels: list[str]) -> pa.Table:
+    codes = np.frombuffer(b"".join(said), np.uint16)
+    lengths = np.fromiter(map(len, said), np.int64) // codes.itemsize
+    weights = np.repeat(times, lengths) if len(times) and times.max() > 1 else None
+    return pair_table(lines, np.repeat(document, lengths), codes, labels, weights)
 
 
-def _findings(lines: Lines, found: dict[tuple[int, str], tuple[int, str]]) -> pa.Table:
-    rows = [(lines.names[document], reason, count, shown(example)) for (document, reason), (count, example) in found.items()]
+def _findings(lines: Lines, document: NDArray[np.int64], times: NDArray[np.int64], told: Sequence[tuple[str, tuple[str, ...]]]) -> pa.Table:
+    found: dict[tuple[int, str], tuple[int, str]] = {}
+    for place, (text, reasons) in enumerate(told):
+        for reason in reasons:
+            key = int(document[place]), reason
+            before, example = found.get(key, (0, text))
+            found[key] = before + int(times[place]), min(example, text)
+    rows = [(lines.names[of], reason, count, shown(example)) for (of, reason), (count, example) in found.items()]
     return pa.table([list(column) for column in zip(*rows, strict=True)] if rows else [[]] * 4, schema=FINDINGS)
 
 

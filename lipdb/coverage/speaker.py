@@ -6,7 +6,7 @@ import re
 import sys
 import unicodedata
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple, Protocol, runtime_checkable
 
@@ -26,7 +26,7 @@ from lipdb.coverage.findings import (
 )
 from lipdb.errors import InputError, LipdbError
 from lipdb.schedule import SILENCE
-from lipdb.speech.phonemes import SWITCH
+from lipdb.speech.phonemes import BREAK, SWITCH
 from lipdb.speech.text import LONGEST_WORD, check_script, cleaned_up, is_plain
 from lipdb.speech.voice import Reading, Voice
 
@@ -37,6 +37,9 @@ LONGEST_PIECE = 2000
 """Characters that a voice is given at once: some need time by the square of them."""
 _AT_ONCE = 256
 _VOCABULARY = 1 << 17
+_END, _END_CODE = 2 * BREAK, b"\xff\xff"
+"""The end of a line among words, and among their codes: no label has it."""
+_BETWEEN = f" {BREAK} {_END} {BREAK} "
 _PIECE = re.compile(
     rf"(.{{1,{LONGEST_PIECE}}}[.!?。！？…;；।؟])(?=\s|$)|(.{{1,{LONGEST_PIECE}}}(?=\s|$)|.{{1,{LONGEST_PIECE}}})", re.DOTALL
 )
@@ -47,6 +50,10 @@ class Said(NamedTuple):
 
     codes: array[int]
     reasons: tuple[str, ...]
+
+
+Row = tuple[bytes, tuple[str, ...]]
+"""The same with the codes as bytes, two each."""
 
 
 @runtime_checkable
@@ -61,8 +68,11 @@ class ReadsForeign(Protocol):
 class Spells(Protocol):
     """A voice that tells its words as its engine spells them: they come again and again, and need be taken apart only once."""
 
-    def spelled(self, text: str) -> list[str]:
-        """The phrases of *text*, words between spaces, and `SWITCH` around those of another language."""
+    def checked(self, text: str) -> tuple[str, bool]:
+        """*text* as the engine is to be given it, and whether it `is_ordinary`. Raises `InputError` where the voice can't read it."""
+
+    def spelled(self, texts: Sequence[str]) -> list[str]:
+        """Each of *texts*, words between spaces, `BREAK` between phrases and `SWITCH` around those of another language."""
 
     def symbols_of(self, word: str) -> tuple[str, ...]:
         """The symbols of a word of `spelled`."""
@@ -76,105 +86,96 @@ class Speaker:
         # Asked once: Python takes as long for the question as a voice for a word.
         self._spells = voice if isinstance(voice, Spells) else None
         self._foreign = voice if isinstance(voice, ReadsForeign) else None
-        self.labels = [SILENCE]
-        self._code = {SILENCE: 0}
-        self._words: dict[str | tuple[str, ...], array[int]] = {}
-        self._lines: dict[str, Said] = {}
+        self._words = _Words(self._spells)
+        self.labels = self._words.labels
+        self._lines: dict[str, Row] = {}
         self._met: set[int] = set()
 
     def say(self, text: str) -> Said:
         """*text* as the voice says it; no codes when it can't."""
-        return next(self.say_all([text]))
+        [(codes, reasons)] = self.say_all([text])
+        return Said(array("H", codes), reasons)
 
-    def say_all(self, texts: Sequence[str]) -> Iterator[Said]:
+    def say_all(self, texts: Sequence[str]) -> list[Row]:
         """Each of *texts* as the voice says it.
 
         First the engine speaks, then its words are taken apart, some lines at once: in turn, each would push the other out
         of the processor's cache.
         """
+        rows: list[Row] = []
         for start in range(0, len(texts), _AT_ONCE):
             some = texts[start : start + _AT_ONCE]
             asked = [self._lines.get(text) or self._ask(text) for text in some]
-            yield from map(self._told, some, asked)
+            heard = iter(self._heard([one for one, _ in asked if isinstance(one, str)]))
+            rows += [_with(next(heard), reasons) if isinstance(one, str) else (one, reasons) for one, reasons in asked]
+            self._remember(some, rows[start:])
+        return rows
 
-    def _ask(self, text: str) -> Said | list[str] | Reading:
-        """What the engine makes of *text*, not taken apart yet; or all of it, where it is long or can't be said."""
+    def _ask(self, text: str) -> tuple[str | bytes, tuple[str, ...]]:
+        """*text* as the engine is to be given it, or codes of what it says; and what there is to report."""
         if len(text) > LONGEST_PIECE:
             return self._say_pieces(text)
         try:
             if self._spells:
-                return self._spells.spelled(text)
-            return self._foreign.read(text) if self._foreign else Reading(self.voice.phrases(text))
+                checked, ordinary = self._spells.checked(text)
+                return checked, () if ordinary else _remarks(text)
+            return _with(self._read(text), _remarks(text))
         except InputError:
-            return Said(array("H"), (self._refused(text),))
+            return b"", (self._refused(text),)
         except LipdbError:
             raise  # The voice can't work at all.
         except Exception:  # noqa: BLE001  (a voice that fails on one line must not stop a corpus; the line is reported)
-            return Said(array("H"), (FAILED,))
+            return b"", (FAILED,)
 
-    def _told(self, text: str, asked: Said | list[str] | Reading) -> Said:
-        """The codes of what the engine made of *text*."""
-        if isinstance(asked, Said):
-            return asked
-        codes, foreign = self._spelled(asked) if isinstance(asked, list) else self._read(asked)
-        said = Said(codes, _remarks(text, foreign)) if any(codes) else Said(array("H"), (NO_WORDS,))
-        if len(text) <= LONGEST_REMEMBERED:
-            self._remember(text, said)
-        return said
+    def _read(self, text: str) -> Row:
+        """What a voice that does not spell says of *text*."""
+        reading = self._foreign.read(text) if self._foreign else Reading(self.voice.phrases(text))
+        words: list[str | tuple[str, ...]] = [BREAK]
+        for phrase in reading.phrases:
+            words += (*phrase, BREAK)
+        return _row(self._codes(words), foreign=reading.foreign > 0)
 
-    def _remember(self, text: str, said: Said) -> None:
+    def _heard(self, texts: list[str]) -> list[Row]:
+        """What the engine says of each of *texts*, and what that alone tells."""
+        if not texts or not self._spells:
+            return []
+        try:
+            spelled = self._spells.spelled(texts)
+        except LipdbError:
+            raise
+        except Exception:  # noqa: BLE001  (as above)
+            return [(b"", (FAILED,))] if len(texts) == 1 else [row for text in texts for row in self._heard([text])]
+        foreign = {k for k, one in enumerate(spelled) if "(" in one and SWITCH.search(one)}
+        for k in foreign:
+            spelled[k] = SWITCH.sub("", spelled[k])
+        words = f"{BREAK} {_BETWEEN.join(spelled)} {BREAK}".split()
+        return [_row(row, foreign=k in foreign) for k, row in enumerate(self._codes(words).split(_END_CODE))]
+
+    def _codes(self, words: Sequence[str | tuple[str, ...]]) -> bytes:
+        return b"".join(map(self._words.__getitem__, words))
+
+    def _say_pieces(self, text: str) -> Row:
+        """A long line in pieces that end where a sentence does, or else between words."""
+        codes, found = b"", dict[str, None]()
+        for sentence, rest in _PIECE.findall(text):
+            [(more, reasons)] = self.say_all([sentence or rest])
+            codes += more
+            found |= dict.fromkeys(reason for reason in reasons if reason != NO_WORDS)
+            if rest.strip() and len(rest) > LONGEST_PIECE // 2:
+                found[LONG_LINE] = None
+        return codes, tuple(found) if codes or found else (NO_WORDS,)
+
+    def _remember(self, texts: Sequence[str], rows: Sequence[Row]) -> None:
         """Keep what comes a second time: most lines never do, and to keep them all costs more than it saves."""
         if len(self._met) >= REMEMBERED:
             self._met.clear()
             self._lines.clear()
-        mark = hash(text)
-        if mark in self._met:
-            self._lines[text] = said
-        self._met.add(mark)
-
-    def _spelled(self, phrases: list[str]) -> tuple[array[int], int]:
-        codes, switches, known = array("H", (0,)), 0, self._words.get
-        for phrase in phrases:
-            bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
-            switches += found
-            for word in bare.split():
-                codes.extend(known(word) or self._learn(word))
-            codes.append(0)
-        return codes, switches
-
-    def _read(self, reading: Reading) -> tuple[array[int], int]:
-        codes = array("H", (0,))
-        for phrase in reading.phrases:
-            for word in phrase:
-                codes.extend(self._words.get(word) or self._learn(word))
-            codes.append(0)
-        return codes, reading.foreign
-
-    def _say_pieces(self, text: str) -> Said:
-        """A long line in pieces that end where a sentence does, or else between words."""
-        codes, reasons = array("H"), dict[str, None]()
-        for sentence, rest in _PIECE.findall(text):
-            said = self.say(sentence or rest)
-            codes.extend(said.codes)
-            reasons |= dict.fromkeys(reason for reason in said.reasons if reason != NO_WORDS)
-            if rest.strip() and len(rest) > LONGEST_PIECE // 2:
-                reasons[LONG_LINE] = None
-        return Said(codes, tuple(reasons) if codes or reasons else (NO_WORDS,))
-
-    def _learn(self, word: str | tuple[str, ...]) -> array[int]:
-        """The codes of *word*, from now on without taking it apart."""
-        if len(self._words) >= _VOCABULARY:
-            self._words.clear()
-        symbols = self._spells.symbols_of(word) if self._spells and isinstance(word, str) else tuple(word)
-        self._words[word] = self._codes(symbols)
-        return self._words[word]
-
-    def _codes(self, word: tuple[str, ...]) -> array[int]:
-        for label in word:
-            if label not in self._code:
-                self._code[label] = len(self.labels)
-                self.labels.append(label)
-        return array("H", [self._code[label] for label in word])
+        marks = set(map(hash, texts))
+        if not self._met.isdisjoint(marks):
+            self._lines.update(
+                (text, row) for text, row in zip(texts, rows, strict=True) if hash(text) in self._met and len(text) <= LONGEST_REMEMBERED
+            )
+        self._met |= marks
 
     def _refused(self, text: str) -> str:
         """Why the voice did not read *text*."""
@@ -189,11 +190,50 @@ class Speaker:
         return NOT_SAID
 
 
-def _remarks(text: str, foreign_words: int) -> tuple[str, ...]:
-    """What of *text* was read in a way that a person may not expect."""
-    foreign = (FOREIGN,) if foreign_words else ()
+class _Words(dict[str | tuple[str, ...], bytes]):
+    """Words as the voice *spells* them, or their labels, to the codes of their *labels*; `BREAK` is ``_``.
+
+    A word that is missing is taken apart: they come again and again.
+    """
+
+    def __init__(self, spells: Spells | None) -> None:
+        self.labels = [SILENCE]
+        self._spells, self._code = spells, {SILENCE: 0}
+
+    def __missing__(self, word: str | tuple[str, ...]) -> bytes:
+        if len(self) >= _VOCABULARY:
+            self.clear()
+        self[word] = _END_CODE if word == _END else array("H", map(self._code_of, self._labels_of(word))).tobytes()
+        return self[word]
+
+    def _labels_of(self, word: str | tuple[str, ...]) -> tuple[str, ...]:
+        if word == BREAK:
+            return (SILENCE,)
+        return self._spells.symbols_of(word) if self._spells and isinstance(word, str) else tuple(word)
+
+    def _code_of(self, label: str) -> int:
+        if label not in self._code:
+            self._code[label] = len(self.labels)
+            self.labels.append(label)
+        return self._code[label]
+
+
+def _row(codes: bytes, *, foreign: bool) -> Row:
+    """*codes*, none when they are all of silence, and what they tell of the line."""
+    if not codes.strip(b"\0"):
+        return b"", (NO_WORDS,)
+    return codes, (FOREIGN,) if foreign else ()
+
+
+def _with(row: Row, remarks: tuple[str, ...]) -> Row:
+    """*row* with *remarks* on the text, where anything of it was said."""
+    return (row[0], (*remarks, *row[1])) if remarks and row[0] else row
+
+
+def _remarks(text: str) -> tuple[str, ...]:
+    """What of *text* is read in a way that a person may not expect."""
     if not _named().search(text) and len(text) <= LONGEST_WORD and is_plain(text):
-        return foreign
+        return ()
     cleaned = cleaned_up(text)
     named = _named().findall(cleaned.text)
     present = {
@@ -203,7 +243,7 @@ def _remarks(text: str, foreign_words: int) -> tuple[str, ...]:
         NUMBERS: any(unicodedata.category(c)[0] == "N" for c in named),
         SYMBOLS: any(unicodedata.category(c)[0] != "N" for c in named),
     }
-    return (*(reason for reason in REASONS if present.get(reason)), *foreign)
+    return tuple(reason for reason in REASONS if present.get(reason))
 
 
 @cache

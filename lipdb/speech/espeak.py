@@ -27,8 +27,8 @@ from lipdb.speech.arabic import spelt_for_espeak
 from lipdb.speech.closures import restore_closures, share_swallowed
 from lipdb.speech.context import in_context
 from lipdb.speech.libespeak import Mark, is_phone
-from lipdb.speech.phonemes import SHORTEST_PAUSE, SWITCH
-from lipdb.speech.text import check_script, clean
+from lipdb.speech.phonemes import BREAK, SHORTEST_PAUSE, SWITCH
+from lipdb.speech.text import check_script, clean, is_ordinary
 from lipdb.speech.voice import Phrase, Phrases, Reading, Spoken, lay_out
 
 if TYPE_CHECKING:
@@ -116,16 +116,23 @@ class EspeakVoice:
         """As `phrases`, with the number of words that are read by the rules of another language."""
         phrases: list[Phrase] = []
         switches = 0
-        for phrase in self.spelled(text):
+        [spelled] = self.spelled([self.checked(text)[0]])
+        for phrase in spelled.split(BREAK):
             bare, found = SWITCH.subn("", phrase) if "(" in phrase else (phrase, 0)
             switches += found
             if words := [symbols for word in bare.split() if (symbols := self.symbols_of(word))]:
                 phrases.append(tuple(words))
         return Reading(tuple(phrases), (switches + 1) // 2)
 
-    def spelled(self, text: str) -> list[str]:
-        """The phrases of *text* as espeak writes them: words between spaces, and `SWITCH` around those of another language."""
-        return phonemes.phrases(self._checked(text)[1], self.name)
+    def checked(self, text: str) -> tuple[str, bool]:
+        """*text* as espeak is to be given it, and whether it `is_ordinary`. Raises `InputError` where the voice can't read it."""
+        if is_ordinary(text, self.script):
+            return self._respelt(_ended(text)), True
+        return self._checked(text)[1], False
+
+    def spelled(self, texts: Sequence[str]) -> list[str]:
+        """Each of *texts*, that are checked, as espeak writes it; see `lipdb.speech.phonemes.spelled`."""
+        return phonemes.spelled(texts, self.name)
 
     def symbols_of(self, word: str) -> tuple[str, ...]:
         """The symbols of a *word* of `spelled`."""
@@ -135,10 +142,13 @@ class EspeakVoice:
         """*text* cleaned, the same as it is spelt for espeak, and notes of what was left out."""
         cleaned, notes = clean(text)
         check_script(cleaned, self.script, language=self.language)
-        # Most lines have a full stop only at their end: looking for it is quicker than the expression.
-        ended = SENTENCE_END.sub(FULL_STOP, cleaned) if "." in cleaned[:-1] else cleaned
-        spelt = respelt(ended, self.readings) if self.readings else ended
-        return ended, spelt_for_espeak(spelt) if self.name == "ar" else spelt, notes
+        ended = _ended(cleaned)
+        return ended, self._respelt(ended), notes
+
+    def _respelt(self, text: str) -> str:
+        """*text* with the words that espeak reads wrongly spelt so that it does not."""
+        spelt = respelt(text, self.readings) if self.readings else text
+        return spelt_for_espeak(spelt) if self.name == "ar" else spelt
 
     def _phones(self, labels: Sequence[str], word_of: Sequence[int]) -> list[Phone]:
         """The phones of *labels* (empty: a pause), of which each belongs to a word."""
@@ -148,6 +158,12 @@ class EspeakVoice:
             symbols = _placed([_known(unstressed(label), self.symbols) for label in said], self.symbols)
             phones += [_phone(label, symbol, word) if label else Phone(SILENCE) for label, symbol in zip(said, symbols, strict=True)]
         return phones
+
+
+def _ended(text: str) -> str:
+    """*text* with full stops that espeak takes for such."""
+    # Most lines have a full stop only at their end: looking for it is quicker than the expression.
+    return SENTENCE_END.sub(FULL_STOP, text) if "." in text[:-1] else text
 
 
 def _phone(label: str, symbol: str, word: int) -> Phone:

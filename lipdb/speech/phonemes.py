@@ -16,6 +16,7 @@ import ctypes
 import os
 import re
 import threading
+from collections.abc import Sequence
 from functools import cache, lru_cache
 from typing import Any
 
@@ -26,29 +27,33 @@ SHORTEST_PAUSE = 0.06
 """Seconds. In less a mouth does not close."""
 SWITCH = re.compile(r"\([a-z-]+\)")
 """espeak's mark of another language's rules, around the words that it reads by them."""
-PAUSE = "__ "
+BREAK = "\0"
+"""Stands between phrases. The library can't write it: it ends its strings with it."""
+_BREAK = f" {BREAK} ".encode()
+_PAUSE = b"__ "
 _ASKED = 4  # Letters: longer words behind which espeak omits the pause are rare, and asking takes 5 ms a word.
 _ABBREVIATION = re.compile(rf"(?<!\w)([^\W\d_]{{1,{_ASKED}}})\.\s+\S*$")
 _TEXT = 1  # UTF-8
 _IPA = 0x02 | ord("_") << 8
 _SPEAKING = threading.Lock()
+Clause = tuple[bytes, bytes]
+"""The phonemes of a clause, and what the library read for it: to one character behind its end. Of the last one, nothing."""
+
+
+def spelled(texts: Sequence[str], voice: str) -> list[str]:
+    """Each of *texts* as espeak writes it: words between spaces, in them IPA labels with stress between ``_``.
+
+    `BREAK` stands between phrases. Marks of switched languages (`SWITCH`) are left in. Raises `PhonesetError` when there is no
+    such voice.
+    """
+    answers = _answers([text.encode() for text in texts], voice)
+    return [(_parted(answer) if isinstance(answer, bytes) else _joined(answer, voice)).decode() for answer in answers]
 
 
 def phrases(text: str, voice: str) -> list[str]:
-    """The phrases of *text* as espeak writes them: words between spaces, in them IPA labels with stress between ``_``.
-
-    Marks of switched languages (`SWITCH`) are left in. Raises `PhonesetError` when there is no such voice.
-    """
-    found: list[str] = []
-    flows = False
-    for clause, read in _clauses(text.encode(), voice):
-        inner = clause.split(PAUSE)
-        if flows and found:
-            found[-1] = f"{found[-1]} {inner[0]}"
-            inner = inner[1:]
-        found += inner
-        flows = b". " in read and _flows(read.decode(errors="ignore"), voice)
-    return found
+    """The phrases of *text*, each as in `spelled`."""
+    [answer] = spelled([text], voice)
+    return answer.split(BREAK)
 
 
 def words(text: str, voice: str) -> list[list[str]]:
@@ -58,20 +63,44 @@ def words(text: str, voice: str) -> list[list[str]]:
     return [word for word in labels if word]
 
 
-def _clauses(raw: bytes, voice: str) -> list[tuple[str, bytes]]:
-    """The phonemes of each clause of *raw*, and what the library read for it: to one character behind its end."""
-    clauses = []
-    rest = ctypes.c_char_p(raw)
-    place = ctypes.c_void_p.from_buffer(rest)  # the same pointer, as a number
-    start, done = place.value or 0, 0
+def _answers(texts: Sequence[bytes], voice: str) -> list[bytes | list[Clause]]:
+    """The phonemes of each of *texts*, by clause where there are more than one.
+
+    What can be done outside of the loop is done there: the library and Python push each other out of the processor's cache.
+    """
+    answers: list[bytes | list[Clause]] = []
+    rest = ctypes.c_char_p()
+    place, pointer = ctypes.c_void_p.from_buffer(rest), ctypes.byref(rest)  # the same pointer, as a number and for the library
     with _SPEAKING:
         translate = _translator(voice)
-        while position := place.value:
-            done = position - start
-            clause = translate(ctypes.byref(rest), _TEXT, _IPA)
-            if clause:
-                clauses.append((clause.decode(), raw[done : (place.value or start + len(raw)) - start]))
-    return clauses
+        for raw in texts:
+            rest.value = raw
+            start, done = place.value or 0, 0
+            phonemes = translate(pointer, _TEXT, _IPA) or b""
+            if not place.value:
+                answers.append(phonemes)
+                continue
+            clauses = []
+            while place.value:
+                clauses.append((phonemes, raw[done : place.value - start]))
+                done = place.value - start
+                phonemes = translate(pointer, _TEXT, _IPA) or b""
+            answers.append([*clauses, (phonemes, b"")])
+    return answers
+
+
+def _joined(clauses: list[Clause], voice: str) -> bytes:
+    """The phonemes of *clauses*, with `BREAK` between those between which the voice pauses."""
+    answer, between = b"", b""
+    for phonemes, read in clauses:
+        if phonemes:
+            answer += between + _parted(phonemes)
+            between = b" " if b". " in read and _flows(read.decode(errors="ignore"), voice) else _BREAK
+    return answer
+
+
+def _parted(phonemes: bytes) -> bytes:
+    return phonemes.replace(_PAUSE, _BREAK)
 
 
 def _flows(read: str, voice: str) -> bool:
@@ -100,7 +129,6 @@ def _translator(voice: str) -> Any:
     # By index: a function of its own, whose types phonemizer's calls do not set anew.
     translate = wrapper._espeak._library["espeak_TextToPhonemes"]
     translate.restype = ctypes.c_char_p
-    translate.argtypes = [ctypes.POINTER(ctypes.c_char_p), ctypes.c_int, ctypes.c_int]
     # The library lives as long as its wrapper.
     translate.wrapper = wrapper
     return translate

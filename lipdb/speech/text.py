@@ -53,6 +53,7 @@ _SHADDA = "\u0651"
 _LONG = re.compile(rf"[^\W\d_ぁ-ヿ㐀-䶿一-鿿]{{{LONGEST_WORD + 1},}}")
 _PLAIN: set[str] = set()
 _ALLOWED: dict[str, set[str]] = {}
+_ORDINARY: dict[str, set[str]] = {}
 WRITING = {"CJK": "Chinese characters", "LATIN": "Latin letters"}
 
 
@@ -100,6 +101,32 @@ def cleaned_up(text: str) -> Cleaned:
     if not any(c.isalnum() or _is_named(c) for c in pieces):
         raise InputError(f"text: nothing in {_shown(text)} can be spoken; write at least one word")
     return Cleaned(" ".join(pieces.split() if pieces != kept else words), emoji, broken, pieces != kept)
+
+
+def is_ordinary(text: str, script: str) -> bool:
+    """Whether *text* is nothing but words of *script* and signs that have no name: `clean` and `check_script` leave it as it is.
+
+    False may only mean that they have to look. Each character is looked at once, as in `is_plain`.
+    """
+    ordinary = _ORDINARY.setdefault(script, {" "})
+    if not ordinary.issuperset(text):
+        ordinary.update(c for c in set(text) if _is_ordinary(c, script))
+        if not ordinary.issuperset(text):
+            return False
+    return (
+        any(map(str.isalpha, text))
+        and text[0] != " "
+        and text[-1] != " "
+        and "  " not in text
+        and ".." not in text
+        and (len(text) <= LONGEST_WORD or max(map(len, text.split(" "))) <= LONGEST_WORD)
+        and (text.isascii() or unicodedata.is_normalized("NFC", text))
+    )
+
+
+def _is_ordinary(character: str, script: str) -> bool:
+    named = unicodedata.category(character)[0] == "N" or _is_named(character)
+    return not (named or character.isspace()) and is_plain(character) and (script not in SCRIPTS or _is_within(character, script))
 
 
 def is_plain(text: str) -> bool:
