@@ -21,7 +21,7 @@ from lipdb.coverage.fast.counter import FastCounter, fast_counter
 from lipdb.coverage.fast.error import distance
 from lipdb.coverage.fast.learn import learn
 from lipdb.coverage.fast.lexicon import Lexicon
-from lipdb.coverage.fast.lexicon_files import join_files, keep, open_lexicon
+from lipdb.coverage.fast.lexicon_files import join_files, open_lexicon, share
 from lipdb.coverage.fast.words import cut, keys_of
 from lipdb.curated.folder import read_folder
 from lipdb.errors import InputError
@@ -219,12 +219,24 @@ def test_the_voice_is_asked_once_for_a_word_and_never_for_one_that_is_kept(tmp_p
     lexicon = open_lexicon(voice, tmp_path)
     numbers = lexicon.words(cut(texts.texts))
     assert sorted(voice.asked) == sorted(words)
-    keep(lexicon, tmp_path)
+    share(lexicon, tmp_path)
     again = Letters()
     opened = open_lexicon(again, tmp_path)
     known = opened.words(cut(texts.texts))
     assert [opened.readings.spelled(n) for n in opened.reading[known]] == [lexicon.readings.spelled(n) for n in lexicon.reading[numbers]]
     assert again.asked == []
+
+
+def test_what_one_process_asked_another_need_not_ask(tmp_path: Path) -> None:
+    words = [f"{a}{b}{c}{d}" for a in "bdfgklmnprstv" for b in "aeiou" for c in "abcdefghijklmnopqrstuvwxyz" for d in "kt"]
+    asking, other = (open_lexicon(Letters(), tmp_path) for _ in range(2))
+    asking.words(cut(pa.array([" ".join(words)])))
+    other.words(cut(pa.array(["some words", " ".join(words[:10])])))
+    share(asking, tmp_path)
+    share(other, tmp_path)
+    numbers = other.words(cut(pa.array([" ".join(words)])))
+    assert len(other.speaker.voice.asked) == 12
+    assert [other.readings.spelled(n) for n in other.reading[numbers]] == [" ".join(word) for word in words]
 
 
 def test_many_files_of_answers_are_joined_and_nothing_is_lost(tmp_path: Path) -> None:
@@ -234,7 +246,7 @@ def test_many_files_of_answers_are_joined_and_nothing_is_lost(tmp_path: Path) ->
         words = [f"{a}{b}{c}{d}" for a in "bdfgk" for b in "aeiou" for c in "bcdfghjklmnpqrst" for d in "abcdef"[first : first + 1] * 5]
         words = [f"{word}{i}" for i, word in enumerate(words)]
         lexicon.words(cut(pa.array([" ".join(words)])))
-        keep(lexicon, tmp_path)
+        share(lexicon, tmp_path)
         whole |= set(words)
     join_files(tmp_path)
     assert len(list(tmp_path.iterdir())) == 1

@@ -7,6 +7,7 @@ others: Dask does so itself, and for processes of this machine `Workers` starts 
 from __future__ import annotations
 
 import ctypes
+import gc
 import multiprocessing
 import os
 import signal
@@ -180,6 +181,7 @@ def _begin(environment: Mapping[str, str]) -> None:
     os.environ.clear()
     os.environ.update(environment)
     _keep_memory()
+    gc.freeze()  # What is there now stays: nobody need look through it for garbage again and again.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     parent = multiprocessing.parent_process()

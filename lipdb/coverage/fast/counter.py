@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.fast.context import Context
 from lipdb.coverage.fast.forms import Forms
 from lipdb.coverage.fast.lexicon import REMARKS, Masks, mask_of
-from lipdb.coverage.fast.lexicon_files import MOST, join_files, keep
+from lipdb.coverage.fast.lexicon_files import MOST, join_files, share
 from lipdb.coverage.fast.opened import context_of, keep_forms, open_forms
 from lipdb.coverage.fast.running import LEFT_OUT, Running, running
 from lipdb.coverage.fast.word_pairs import pairs_of
@@ -103,16 +104,14 @@ class FastCounter:
     def count(self, lines: Lines) -> Counts:
         """The pairs of *lines*, as their words are read one by one."""
         forms = _at_work(self)
-        found = running(forms.lexicon, lines.texts)
+        found = running(forms.lexicon, lines.texts, partial(share, forms.lexicon, self.folder))
         remarks = _with_lines(lines, found)
-        counts = Counts.of(
+        return Counts.of(
             pairs=pairs_of(lines, found, forms),
             findings=_findings(lines, remarks),
             documents=_documents(lines, remarks),
             sample=self._sample(lines, forms),
         )
-        keep(forms.lexicon, self.folder)
-        return counts
 
     def _sample(self, lines: Lines, forms: Forms) -> pa.Table:
         """The pairs of the lines that are counted both ways."""

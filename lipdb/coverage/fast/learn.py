@@ -37,7 +37,7 @@ def learn(lexicon: Lexicon, lines: Sequence[str]) -> Context:
     edges = np.searchsorted(found.line, np.arange(len(lines) + 1))
     rows = [np.arange(first, last) for first, last in pairwise(edges.tolist())]
     table, texts = lexicon.readings, _texts(lexicon, lines)
-    spoken = [BREAK.join(lexicon.said(line).phrases).split() for line in lines]
+    spoken = [BREAK.join(said.phrases).split() for said in lexicon.said(lines)]
     table.label_numbers([label for labels in spoken for label in labels])
     pairs = [(row, table.label_numbers(labels)) for row, labels in zip(rows, spoken, strict=True) if row.size and labels]
     alone = [_alone(lexicon, found, row) for row, _ in pairs]

@@ -6,8 +6,7 @@ scans (`lipdb.coverage.fast.lexicon_files`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from itertools import groupby
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -92,7 +91,7 @@ class Lexicon:
         numbers = self._words.find(keys)
         if (new := np.flatnonzero(numbers == UNKNOWN)).size:
             places = _first(keys, new)
-            answers = [self._ask(words.word(place)) for place in places.tolist()]
+            answers = self._ask([words.word(place) for place in places.tolist()])
             asked = pa.table([list(column) for column in zip(*answers, strict=True)], schema=ANSWERS)
             self._enter(asked, self.readings.number(asked["reading"].combine_chunks()))
             self.asked = pa.concat_tables([self.asked, asked])
@@ -105,14 +104,18 @@ class Lexicon:
         numbers = self._gaps.find(keys)
         if (new := np.flatnonzero(numbers == UNKNOWN)).size:
             first = _first(keys, new)
-            said = [self.said(f"{self._beside}{words.gap(place)}{self._beside}").phrases for place in places[first].tolist()]
-            self.pauses = np.append(self.pauses, np.array([len(phrases) > 1 for phrases in said], bool))
+            said = self.said([f"{self._beside}{words.gap(place)}{self._beside}" for place in places[first].tolist()])
+            self.pauses = np.append(self.pauses, np.array([len(one.phrases) > 1 for one in said], bool))
             self._gaps.add(keys[first])
             numbers[new] = self._gaps.find(keys[new])
         return self.pauses[numbers]
 
     def learn(self, answers: pa.Table) -> None:
-        """Take over *answers* of the same voice, a table of `ANSWERS`, each to a word that is new."""
+        """Take over *answers* of the same voice, a table of `ANSWERS`, each word once; those that are known already stay."""
+        answers = answers.combine_chunks()
+        new = self._words.find(each_a_word(answers["word"].combine_chunks()).keys()) == UNKNOWN
+        if not new.all():
+            answers = answers.filter(pa.array(new))
         self._enter(answers, self.readings.number_many(answers["reading"].combine_chunks()))
 
     def _enter(self, answers: pa.Table, readings: Numbers) -> None:
@@ -121,18 +124,25 @@ class Lexicon:
         self.unusual = (self.remarks != 0) | (self.reading == 0)
         self._words.add(each_a_word(answers["word"].combine_chunks()).keys())
 
-    def said(self, text: str) -> Spelled:
-        """*text* as the voice says it in running speech."""
-        said = self.speaker.say(text)
-        labels = [self.speaker.labels[code] for code in said.codes]
-        phrases = [" ".join(run) for sounds, run in groupby(labels, key=lambda label: label != SILENCE) if sounds]
-        return Spelled(phrases, mask_of(said.reasons))
+    def said(self, texts: Sequence[str]) -> list[Spelled]:
+        """Each of *texts* as the voice says it in running speech."""
+        rows, names = self.speaker.say_all(texts), self.speaker.labels
+        # Codes are of 16 bits, and so are the characters of this encoding.
+        phrases = [filter(None, codes.decode("utf-16-le", "surrogatepass").split("\0")) for codes, _ in rows]
+        return [
+            Spelled([" ".join([names[ord(code)] for code in phrase]) for phrase in of], mask_of(reasons))
+            for of, (_, reasons) in zip(phrases, rows, strict=True)
+        ]
 
-    def _ask(self, word: str) -> tuple[str, str, int]:
-        framed = bool(self._frame) and word.isascii()
-        phrases, remarks = self.said(self._frame.format(word) if framed else word)
+    def _ask(self, words: list[str]) -> list[tuple[str, str, int]]:
+        framed = [bool(self._frame) and word.isascii() for word in words]
+        said = self.said([self._frame.format(word) if apart else word for word, apart in zip(words, framed, strict=True)])
         # A line may have other words.
-        return word, BREAK.join(phrases[1:-1] if framed else phrases), remarks & ~mask_of((NO_WORDS,))
+        remarks = ~mask_of((NO_WORDS,))
+        return [
+            (word, BREAK.join(phrases[1:-1] if apart else phrases), found & remarks)
+            for word, apart, (phrases, found) in zip(words, framed, said, strict=True)
+        ]
 
 
 def mask_of(reasons: Iterable[str]) -> int:

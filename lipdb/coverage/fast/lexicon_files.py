@@ -25,7 +25,7 @@ MOST = 2_000_000
 """Words. A lexicon that has more is given up for an empty one, so memory is bounded whatever people write."""
 KEPT = MOST // 2
 """Words that are kept between scans: fewer, so that a scan that opens them has room."""
-_WORTH_AANSWERS = 2000  # Answers: fewer are sooner asked for again than opened.
+_WORTH_ANSWERS = 2000  # Answers: fewer are sooner asked for again than opened.
 _MANY = 3
 _SUFFIX = ".parquet"
 
@@ -51,18 +51,23 @@ def join_files(folder: Path) -> None:
     if len(answer_files(folder)) <= _MANY:
         return
     found = _tables(folder)
-    if _write(_once([table for _, table in found]).slice(0, KEPT), folder):
+    if joined := _write(_once([table for _, table in found]).slice(0, KEPT), folder):
         for file, _ in found:
-            file.unlink(missing_ok=True)
+            if file != joined:
+                file.unlink(missing_ok=True)
 
 
-def keep(lexicon: Lexicon, folder: Path | None) -> None:
-    """Keep what *lexicon* asked since the last time, if it is worth a file."""
-    if folder is None or len(lexicon.asked) < _WORTH_AANSWERS:
+def share(lexicon: Lexicon, folder: Path | None) -> None:
+    """Keep what *lexicon* asked since the last time, if it is worth a file, and take over what others have kept since."""
+    if folder is None or not len(lexicon.asked):
         return
-    if len(lexicon) <= KEPT:
-        _write(lexicon.asked, folder)
-    lexicon.asked = ANSWERS.empty_table()
+    if len(lexicon.asked) >= _WORTH_ANSWERS:
+        if len(lexicon) <= KEPT and (file := _write(lexicon.asked, folder)):
+            lexicon.files.add(file.name)
+        lexicon.asked = ANSWERS.empty_table()
+    if len(lexicon) <= KEPT and (new := [file for file in answer_files(folder) if file.name not in lexicon.files]):
+        lexicon.files.update(file.name for file in new)
+        lexicon.learn(_once([table for file in new if (table := _read(file)) is not None]).slice(0, KEPT))
 
 
 def answer_files(folder: Path) -> list[Path]:
@@ -96,14 +101,15 @@ def _read(file: Path) -> pa.Table | None:
     return table.replace_schema_metadata() if table.schema.equals(ANSWERS) else None
 
 
-def _write(table: pa.Table, folder: Path) -> bool:
-    """Write *table* into *folder*; whether it could be done."""
+def _write(table: pa.Table, folder: Path) -> Path | None:
+    """Write *table* into *folder*; the file, if it could be done."""
     table = table.sort_by("word")
     words = table["word"].combine_chunks()
     digest = hashlib.sha256(b"".join(bytes(buffer) for buffer in words.buffers() if buffer))
     with contextlib.suppress(OSError, OutputError):
         folder.mkdir(parents=True, exist_ok=True)
-        with whole_file(folder / f"{digest.hexdigest()[:16]}{_SUFFIX}") as temporary:
+        file = folder / f"{digest.hexdigest()[:16]}{_SUFFIX}"
+        with whole_file(file) as temporary:
             pq.write_table(table.cast(ANSWERS), temporary, compression="zstd")
-        return True
-    return False
+        return file
+    return None

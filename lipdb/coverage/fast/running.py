@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -52,11 +52,17 @@ class Running:
                 yield self.part(first, last)
 
 
-def running(lexicon: Lexicon, texts: pa.StringArray) -> Running:
-    """*texts*, one line each, as *lexicon* reads their words. It asks the voice for those that are new to it."""
+def running(lexicon: Lexicon, texts: pa.StringArray, asked: Callable[[], None] = lambda: None) -> Running:
+    """*texts*, one line each, as *lexicon* reads their words.
+
+    It asks the voice for those that are new to it; *asked* is called now and then, for the answers to be shared.
+    """
     _, starts, _ = spans_of(texts)
     edges = [*np.searchsorted(starts, range(0, starts[-1] + 1, AT_ONCE)).tolist(), len(texts)] if len(texts) else [0, 0]
-    parts = [_running(lexicon, texts[first:last], first) for first, last in pairwise(edges)]
+    parts = []
+    for first, last in pairwise(edges):
+        parts.append(_running(lexicon, texts[first:last], first))
+        asked()
     return Running(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
 
