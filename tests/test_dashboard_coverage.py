@@ -26,9 +26,12 @@ def view(page, name: str) -> None:
     settled(page)
 
 
-def back(page) -> None:
-    """To this page by the side bar, as people go."""
-    page.get_by_role("link", name="Coverage").click()
+def back(page, *, by_browser: bool = False) -> None:
+    """To this page by the side bar, or by the browser's own button."""
+    if by_browser:
+        page.go_back()
+    else:
+        page.get_by_role("link", name="Coverage").click()
     page.get_by_role("combobox", name="Languages").wait_for()
     settled(page)
 
@@ -49,20 +52,42 @@ def click_until_opened(page, target, *, x: float, y: float) -> str:
     raise AssertionError("no click opened a pair")
 
 
-def test_a_click_into_the_matrix_opens_the_pair_and_the_page_comes_back_as_it_was(coverage) -> None:
+def opened(page, pair: str) -> None:
+    """Wait until Curves shows *pair*."""
+    left, right = pair.split("-")
+    for label, phone in (("From", left), ("To", right)):
+        page.get_by_role("combobox", name=label, exact=True).and_(page.locator(f'[value="{phone}"]')).wait_for()
+    settled(page)
+
+
+@pytest.mark.parametrize("by_browser", [False, True])
+def test_a_click_into_the_matrix_opens_the_pair_and_the_page_comes_back_as_it_was(coverage, by_browser) -> None:
     coverage.get_by_test_id("stButtonGroup").nth(1).get_by_text("Origin", exact=True).click()
     coverage.get_by_text("are pale").wait_for()
     drawn = coverage.get_by_test_id("stVegaLiteChart").locator("canvas, svg").first
-    assert re.fullmatch("[a-z_]+-[a-z_]+", click_until_opened(coverage, drawn, x=0.6, y=0.5))
-    back(coverage)
-    coverage.get_by_text("are pale").wait_for()
+    pairs = []
+    for y in (0.5, 0.7):
+        pairs.append(click_until_opened(coverage, drawn, x=0.6, y=y))
+        assert re.fullmatch("[a-z_]+-[a-z_]+", pairs[-1])
+        opened(coverage, pairs[-1])
+        back(coverage, by_browser=by_browser)
+        coverage.get_by_text("are pale").wait_for()
+    assert pairs[0] != pairs[1]
 
 
-def test_a_click_into_the_list_opens_what_is_needed_most(coverage) -> None:
+@pytest.mark.parametrize("by_browser", [False, True])
+def test_a_click_into_the_list_opens_what_is_needed_most_and_the_list_comes_back(coverage, by_browser) -> None:
     view(coverage, "To do")
     coverage.get_by_text("After the next 10").wait_for()
     grid = coverage.get_by_test_id("stDataFrame").first.locator("canvas").first
-    assert click_until_opened(coverage, grid, x=40, y=52) == "ah-d"
+    pairs = []
+    for row in range(2):
+        pairs.append(click_until_opened(coverage, grid, x=40, y=52 + 35 * row))
+        opened(coverage, pairs[-1])
+        back(coverage, by_browser=by_browser)
+        coverage.get_by_text("After the next 10").wait_for()
+    assert pairs[0] == "ah-d"
+    assert pairs[1] != "ah-d"
 
 
 def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> None:

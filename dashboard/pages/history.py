@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import streamlit as st
 from parts.compare import draw_versions
 from parts.lines import state
-from parts.pairs import OPEN
+from parts.pairs import open_pair
 from parts.session import database, shown_errors, undo, visitor
 
 from lipdb.curves.changed import ChangedPair, changed_pairs
@@ -132,9 +130,7 @@ def show_curves(one: Revision, pairs: list[ChangedPair], wanted: Wanted) -> None
 def open_in_curves(pair: ChangedPair) -> None:
     """Go to the pair in the page Curves, at the layer in which it changed."""
     place = {"language": pair.language, "character": pair.character, "kind": pair.layer.partition(":")[0]}
-    place = {name: value for name, value in place.items() if value}
-    st.session_state[OPEN] = {"left": pair.left, "right": pair.right, "word": "", **place}
-    st.switch_page(str(Path(__file__).parent / "curves.py"), query_params={"pair": pair.pair, **place})
+    open_pair(pair.left, pair.right, **{name: value for name, value in place.items() if value})
 
 
 def show_rows(changes: list[Change]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import altair as alt
 import pandas as pd
@@ -18,10 +19,11 @@ from lipdb.languages.examples import Examples, pairs_in_order
 from lipdb.schedule import SILENCE
 
 WORD = "low"
-CHOICE, OPEN = "curves_choice", "curves_open"
+CHOICE, ADDRESS, PICKED = "curves_choice", "curves_address", "curves_picked"
+CURVES = str(Path(__file__).parents[1] / "pages" / "curves.py")
 LISTENED = 4
 """Sentences from which the usual lengths of a pair's phones are taken."""
-CELL = 27
+CELL = 25
 """Pixels of a pair in the matrix."""
 ORIGIN_COLOURS = dict(zip(ORIGINS, ("#009e73", "#56b4e9", "#0072b2", "#e69f00", "#d55e00"), strict=True))
 
@@ -42,41 +44,54 @@ class Choice:
         """The pair as people write it."""
         return f"{self.left}-{self.right}"
 
+    @property
+    def address(self) -> dict[str, str]:
+        """The choice as the address of the page has it."""
+        return {"pair": self.pair, "language": self.language, "character": self.character, "kind": self.kind}
+
 
 def choice() -> Choice:
-    """The visitor's choice: as another page asked for it, as it was, or as the address says."""
-    if CHOICE not in st.session_state:
-        asked = {name: st.query_params[name] for name in ("language", "character", "kind") if name in st.query_params}
-        left, dash, right = st.query_params.get("pair", "").partition("-")
-        st.session_state[CHOICE] = Choice(**asked, **({"left": left, "right": right, "word": ""} if dash else {}))
-    chosen: Choice = st.session_state[CHOICE]
-    for name, value in st.session_state.pop(OPEN, {}).items():
-        setattr(chosen, name, value)
+    """The visitor's choice: as the address says, if it is one that this page has not written itself, or as it was."""
+    chosen: Choice = st.session_state.setdefault(CHOICE, Choice())
+    address = st.query_params.to_dict()
+    # Another page, a link, or back and forth in the browser. What was just picked counts: the address still comes after it.
+    if not st.session_state.pop(PICKED, False) and address and address != st.session_state.get(ADDRESS):
+        for name in ("language", "character", "kind"):
+            setattr(chosen, name, address.get(name, getattr(chosen, name)))
+        left, dash, right = address.get("pair", "").partition("-")
+        if dash:
+            chosen.left, chosen.right, chosen.word = left, right, ""
     return chosen
 
 
-def open_pair(left: str, right: str, *, language: str, character: str) -> None:
-    """Go to the page Curves, to this pair."""
-    st.session_state[OPEN] = {"left": left, "right": right, "language": language, "character": character, "word": ""}
-    st.switch_page("pages/curves.py")
+def open_pair(left: str, right: str, **where: str) -> None:
+    """Go to the page Curves, to this pair; *where* may name ``language``, ``character`` and ``kind`` of layer."""
+    chosen: Choice = st.session_state.get(CHOICE, Choice())
+    # The whole address goes along: if Curves had to complete it, the browser's way back would lead to Curves once more.
+    st.switch_page(CURVES, query_params={**chosen.address, **where, "pair": f"{left}-{right}"})
 
 
 def take(left: str, right: str) -> None:
     """Choose a pair."""
     chosen: Choice = st.session_state[CHOICE]
     chosen.left, chosen.right = left, right
+    st.session_state[PICKED] = True
 
 
-def remember(chosen: Choice) -> None:
-    """Put the choice into the address, so that it can be loaded again or sent to somebody."""
-    wanted = {"pair": chosen.pair, "language": chosen.language, "character": chosen.character, "kind": chosen.kind}
-    if st.query_params.to_dict() != wanted:
-        st.query_params.from_dict(wanted)
+def remember(chosen: Choice, *, arrived: bool) -> None:
+    """Put the choice into the address, so that it can be loaded again or sent to somebody.
+
+    Who goes back to an address without a choice and has not *arrived* from another page is on the way out: it stays.
+    """
+    if st.query_params.to_dict() != chosen.address and (arrived or chosen.address != st.session_state.get(ADDRESS)):
+        st.query_params.from_dict(chosen.address)
+    st.session_state[ADDRESS] = chosen.address
 
 
 def ask() -> Place:
     """Ask for language, character, layer and pair. Raises `LipdbError`."""
     db, chosen = database(), choice()
+    arrived = "curves_word" not in st.session_state  # Streamlit forgets the widgets of a page that is left
     languages = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
     phones = sorted((key[0] for key in db.records["common.tsv"]), key=lambda phone: (phone == SILENCE, phone))
@@ -98,7 +113,7 @@ def ask() -> Place:
     if columns[3].button("All pairs", icon=":material/grid_on:", key="curves_matrix", width="stretch"):
         _matrix(chosen.language, chosen.character)
     _pairs_of_word(chosen)
-    remember(chosen)
+    remember(chosen, arrived=arrived)
     return Place(chosen.left, chosen.right, db.character(chosen.character).pose_set, chosen.language, chosen.character, chosen.kind)
 
 
@@ -113,6 +128,7 @@ def _keep_known(chosen: Choice, languages: dict[str, str], characters: dict[str,
 def picked(name: str) -> None:
     """Take over what the visitor chose in the widget of *name*."""
     setattr(st.session_state[CHOICE], name, st.session_state[f"curves_{name}"])
+    st.session_state[PICKED] = True
 
 
 def _typed() -> None:
@@ -144,7 +160,7 @@ def _pairs_of_word(chosen: Choice) -> None:
     st.pills("Pairs of the word", list(names), key="curves_of_word", on_change=other, label_visibility="collapsed")
 
 
-@st.dialog("All pairs", width="large")
+@st.dialog("All pairs", width="medium")
 def _matrix(language: str, character: str) -> None:
     """Every pair by where its curves come from; a click chooses one."""
     with shown_errors():
