@@ -6,8 +6,11 @@ import streamlit as st
 from parts.session import greet
 
 # An icon of its own: Streamlit would fetch one by name from the internet.
-MARK = Path(__file__).parent / "parts" / "mark.svg"
-st.set_page_config(page_title="lipdb", page_icon=str(MARK), layout="wide")
+PARTS = Path(__file__).parent / "parts"
+SIDEBAR = 220  # pixels; faces, lanes and tables need the rest
+st.set_page_config(page_title="lipdb", page_icon=str(PARTS / "mark.svg"), layout="wide", initial_sidebar_state=SIDEBAR)
+st.logo(str(PARTS / "wordmark.svg"), size="large", icon_image=str(PARTS / "mark.svg"))
+st.html(PARTS / "page.css")
 page = st.navigation(
     [
         st.Page("pages/say.py", title="Say", icon=":material/record_voice_over:", default=True),

@@ -7,10 +7,9 @@ from pathlib import Path
 import streamlit as st
 from parts.downloads import download
 from parts.instant import explain
-from parts.lines import key_of, played, recorded, spoken
+from parts.lines import LARGEST, key_of, played, recorded, spoken
 from parts.session import database, shown_errors
 from parts.stage import stage
-from parts.stages import STAGE_COLOURS, stages_chart
 
 from lipdb import Line, plugins
 from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
@@ -37,7 +36,7 @@ def ask() -> tuple[Line | None, str, Beside | None]:
     db = database()
     languages = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
-    first, second, third, fourth, fifth = st.columns([4, 3, 3, 4, 4])
+    first, second, third, fourth, fifth = st.columns([16, 13, 13, 19, 19])
     source = first.segmented_control("From", ["Text", "Recording"], default="Text", key="say_source") or "Text"
     language = second.selectbox(
         "Language",
@@ -84,8 +83,13 @@ def _recording(language: str) -> Line | None:
     """The uploaded recording with its phones, once there is one."""
     left, right = st.columns(2)
     suffixes = sorted({*plugins.readers(), ".json"})
-    aligned = left.file_uploader(f"Aligned phones ({' '.join(suffixes)})", type=[suffix[1:] for suffix in suffixes], key="say_grid")
-    audio = right.file_uploader("Recording (.wav)", type=["wav"], key="say_wav")
+    aligned = left.file_uploader(
+        f"Aligned phones ({' '.join(suffixes)})",
+        type=[suffix[1:] for suffix in suffixes],
+        key="say_grid",
+        max_upload_size=LARGEST // 1_000_000,
+    )
+    audio = right.file_uploader("Recording (.wav)", type=["wav"], key="say_wav", max_upload_size=LARGEST // 1_000_000)
     guess = left.checkbox("Map unknown symbols by articulation", key="say_guess", help="Otherwise the line stops at the first one.")
     if aligned is None:
         return None
@@ -96,6 +100,9 @@ def _recording(language: str) -> Line | None:
 
 def look_inside(line: Line, character: str) -> None:
     """The stages of the engine, one colour a stage."""
+    # Imported here: Altair takes seconds to import, and the first face should not wait for it.
+    from parts.stages import STAGE_COLOURS, stages_chart
+
     made = database().stages(line, character=character)
     left, right = st.columns([1, 3])
     poses = list(made.poses)

@@ -54,7 +54,7 @@ def step_language(mine: Work | None) -> None:
 def _names(*, spoken: bool) -> tuple[str, str, str]:
     """Code, name and voice, as they were typed or as the voice suggests them."""
     voices = dict(sorted(espeak_voices().items(), key=lambda item: item[1])) if spoken else {}
-    columns = st.columns([3, 3, 2]) if spoken else st.columns([1, 3, 2])
+    columns = st.columns([3, 3, 2] if spoken else [3, 2])
     voice = ""
     if spoken:
         voice = (
@@ -73,14 +73,14 @@ def _names(*, spoken: bool) -> tuple[str, str, str]:
     there = {row["language"] for row in database().languages()}
     own = voice.replace("-", "_") if voice else ""
     suggested = own if CODE.fullmatch(own) and own not in there else ""
-    name = columns[1].text_input(
+    name = columns[-2].text_input(
         "Name", key="languages_name", persist_state="session", placeholder=voices.get(voice, "What it is called in English"), max_chars=80
     )
-    code = columns[2].text_input(
+    code = columns[-1].text_input(
         "Code",
         key="languages_code",
         persist_state="session",
-        placeholder=suggested or "such as pl, or qpa for an invented one",
+        placeholder=suggested or "pl, or qpa if invented",
         max_chars=16,
         help="Two or three small letters (ISO 639; qaa to qtz are free for invented ones), with a word behind it for a variety: pl_east.",
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sized
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -207,6 +208,10 @@ def _rows(mine: Merging) -> None:
         st.caption(f"The first {MOST_ROWS} of {len(rows)} rows; compare one language to see all of it.")
 
 
+def _rows_of(changes: Sized) -> str:
+    return f"{len(changes)} row{'s' * (len(changes) != 1)}"
+
+
 def _result(mine: Merging) -> None:
     st.subheader("The result")
     open_conflicts = sum(one.conflict and one.place not in mine.choices for one in mine.found)
@@ -217,18 +222,18 @@ def _result(mine: Merging) -> None:
     left, right = st.columns(2, gap="large")
     with left:
         changes = changed_rows(database().records, chosen)
-        st.write(f"{len(changes)} rows of the database would change.")
+        st.write(f"{_rows_of(changes)} of the database would change.")
         note = st.text_input("Why (for the history)", key="languages_merge_note", persist_state="session", max_chars=200)
         if st.button("Save to the database", type="primary", disabled=not changes, key="languages_merge_rows", icon=":material/database:"):
             with told():
                 db, author = writable()
                 number = save_rows(changes, db.store, author=author, note=note or "Merge two versions", seen=mine.seen)
-                st.session_state["languages_merged"] = f"Revision {number}: {len(changes)} rows. History can take it back."
+                st.session_state["languages_merged"] = f"Revision {number}: {_rows_of(changes)}. History can take it back."
                 st.rerun()
     with right:
         folder = _workspace()
         changes = changed_rows(mine.text, chosen)
-        st.write(f"{len(changes)} rows of the workspace `{folder}` would change.")
+        st.write(f"{_rows_of(changes)} of the workspace `{folder}` would change.")
         if st.button("Save to the workspace", disabled=not changes or not mine.text, key="languages_merge_text", icon=":material/folder:"):
             with told():
                 writable()

@@ -14,6 +14,16 @@ from lipdb.languages.reuse_text import frequency_of
 from lipdb.languages.trial import Checked, check_records
 
 LONGEST_LIST = 300
+_number, _text = st.column_config.NumberColumn, st.column_config.TextColumn
+TOLD = {
+    "pairs of": _text(help="The phones of all languages, its own, its syllables, or a text"),
+    "shared": _number("taken over", help="A language chosen above has both phones of the pair"),
+    "new": _number(help="No language chosen above has them"),
+    "inherited": _number(help="New, but a coarser phone's curves serve until somebody draws their own"),
+    "_ shared": _number("at pauses", help="Pairs with silence that are taken over"),
+    "_ new": _number("new at pauses", help="Pairs with silence that are new"),
+    "text in new": _text("text in new", help="What part of the running text the new pairs make"),
+}
 
 
 @st.cache_resource(max_entries=24, show_spinner="The voice reads the sample; every row is checked…")
@@ -53,7 +63,9 @@ def show_reuse(code: str, _character: str | None) -> None:
     with told():
         found = _reused(code, tuple(donors), database().store.revision)
         st.dataframe(
-            [{**part.to_row(), **{f"from {donor}": count for donor, count in part.shared.items()}} for part in found.parts], hide_index=True
+            [{**part.to_row(), **{f"from {donor}": count for donor, count in part.shared.items()}} for part in found.parts],
+            hide_index=True,
+            column_config=TOLD,
         )
         if found.own:
             st.write(f"Only {code} has the common phones **{' '.join(found.own)}**.")

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import altair as alt
 import pandas as pd
-import streamlit as st
+from parts.looks import blue, dark, ink
 from parts.pairs import ORIGIN_COLOURS
 
 from lipdb.coverage.reports.frequency import Frequency
@@ -75,7 +75,9 @@ def heat_map(table: pd.DataFrame, colouring: str, order: Sequence[str]) -> alt.C
     names, colours = _palette(table, colouring)
     scale = alt.Scale(domain=names, range=colours)
     return cells.encode(
-        color=alt.Color(f"{colouring.lower()}:N", scale=scale, legend=alt.Legend(title=None, orient="top")),
+        color=alt.Color(
+            f"{colouring.lower()}:N", scale=scale, legend=alt.Legend(title=None, orient="top", symbolStrokeWidth=0, symbolSize=160)
+        ),
         fillOpacity=alt.condition("datum.percent > 0", alt.value(1), alt.value(0.3)),
     )
 
@@ -119,13 +121,12 @@ def figure_two(frequency: Frequency) -> alt.LayerChart:
     line = base.mark_line(color="#d55e00", strokeWidth=2.5).encode(y=cover)
     at = alt.Chart(pd.DataFrame(marks)).encode(x=rank, y=cover)
     dots = at.mark_point(color="#d55e00", filled=True, size=70, opacity=1)
-    ink = "#fafafa" if dark() else "#31333f"
     words = [
-        at.transform_filter(alt.datum["last"] == last).mark_text(align=align, dx=dx, dy=dy, fontSize=13, color=ink).encode(text="text:N")
+        at.transform_filter(alt.datum["last"] == last).mark_text(align=align, dx=dx, dy=dy, fontSize=13, color=ink()).encode(text="text:N")
         for last, align, dx, dy in ((False, "left", 9, 12), (True, "center", 0, 20))
     ]
     touch = base.mark_rule(strokeWidth=4, opacity=0).encode(tooltip=tooltip)
-    return alt.layer(bars, alt.layer(line, dots, *words), touch).resolve_scale(y="independent").properties(height=380)
+    return alt.layer(bars, alt.layer(line, dots, *words), touch).resolve_scale(y="independent").properties(height=480)
 
 
 def work_chart(gaps: Sequence[Gap], *, covered: float) -> alt.Chart:
@@ -133,16 +134,11 @@ def work_chart(gaps: Sequence[Gap], *, covered: float) -> alt.Chart:
     rows = [{"hours": 0.0, "covered": covered, "pair": "today"}]
     rows += [{"hours": gap.hours, "covered": gap.covered, "pair": f"{gap.use.left}-{gap.use.right}"} for gap in gaps]
     return (
-        alt.Chart(pd.DataFrame(rows), height=200)
-        .mark_area(line={"color": "#0072b2"}, color="#0072b2", fillOpacity=0.15)
+        alt.Chart(pd.DataFrame(rows), height=260)
+        .mark_area(line={"color": blue()}, color=blue(), fillOpacity=0.15)
         .encode(
-            x=alt.X("hours:Q", title="hours of work, the most needed pairs first"),
+            x=alt.X("hours:Q", title="hours of work"),
             y=alt.Y("covered:Q", title="% covered by hand", scale=alt.Scale(domain=[0, 100])),
             tooltip=[alt.Tooltip("pair:N", title="with"), alt.Tooltip("hours:Q", format=".1f"), alt.Tooltip("covered:Q", format=".2f")],
         )
     )
-
-
-def dark() -> bool:
-    """Whether the visitor's browser shows the dark theme."""
-    return st.context.theme.type == "dark"

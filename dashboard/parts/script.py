@@ -38,7 +38,9 @@ def ask_script(languages: Sequence[str], character: str, *, silence: bool) -> No
         height=180,
         placeholder="Paste a scene here: each line as somebody will speak it.",
     )
-    file = right.file_uploader("Or a text file", type=["txt"], key="coverage_script_file", help=f"UTF-8, up to {LARGEST // 1_000_000} MB.")
+    file = right.file_uploader(
+        "Or a text file", type=["txt"], key="coverage_script_file", help="UTF-8.", max_upload_size=LARGEST // 1_000_000
+    )
     if (file.size if file else len(pasted.encode())) > LARGEST:
         raise InputError(f"a script of more than {LARGEST // 1_000_000} MB is a corpus: count it under Corpora")
     text = decoded(file.getvalue()) if file else pasted
@@ -79,7 +81,7 @@ def show_script(script: Script, language: str, character: str, *, silence: bool)
     if not missing:
         st.success("Every pair of this script has authored or fitted curves.", icon=":material/done_all:")
         return
-    left, right = st.columns(2, gap="medium")
+    left, right = st.columns([2, 3], gap="medium")
     with left:
         st.write("**Pairs without authored curves**, the most needed first")
         pairs_table(
@@ -110,7 +112,6 @@ def _by_pair(script: Script, missing: Sequence[PairUse]) -> pd.DataFrame:
                 "pair": "-".join(use.pair),
                 "count": use.count,
                 "lines": numbers,
-                "for example": lines[0].text,
                 "origin": use.origin,
                 "layer": use.layer,
             }

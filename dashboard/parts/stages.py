@@ -8,6 +8,7 @@ import altair as alt
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
+from parts.looks import blue
 
 if TYPE_CHECKING:
     from lipdb.engine import Stages
@@ -25,51 +26,55 @@ STAGE_COLOURS = {
 }
 GREY = "#8a8a8a"
 """Can be read on light and on dark pages."""
+ROOM = 1.15
+"""What a pose has of the height, in weights: 1 and the names of the phones."""
 STRAIGHT = 1e-4
 """A point that is nearer than this to the line between its neighbours is not sent to the browser."""
 
 
-def stages_chart(
-    made: Stages, schedule: Schedule, poses: list[str], shown: list[str], *, window: tuple[float, float]
-) -> alt.LayerChart | alt.VConcatChart:
-    """Each stage of *shown* for each of *poses* within *window* seconds, with the common phones (the paper's Figures 6 to 10)."""
+def stages_chart(made: Stages, schedule: Schedule, poses: list[str], shown: list[str], *, window: tuple[float, float]) -> alt.LayerChart:
+    """Each stage of *shown* for each of *poses* within *window* seconds, with the common phones (the paper's Figures 6 to 10).
+
+    Poses stand over each other in one plot, each on a floor of its own: plots in a column would not keep to the page's width.
+    """
     order = [stage for stage in STAGE_COLOURS if stage in shown]
-    scale = alt.Scale(domain=order, range=[STAGE_COLOURS[stage] for stage in order])
-    time = alt.X("seconds:Q", title="seconds", scale=alt.Scale(domain=list(window), nice=False))
-    colour = alt.Color("stage:N", scale=scale, legend=alt.Legend(orient="top", title=None))
-    single = len(poses) == 1
-
-    def panel(pose: str) -> alt.LayerChart:
-        data = pd.concat([_stage(made, pose, stage, window) for stage in order], ignore_index=True)
-        lines = (
-            alt.Chart(data)
-            .mark_line(strokeWidth=1.6, clip=True)
-            .encode(
-                x=time if single or pose == poses[-1] else time.axis(labels=False, title=None),
-                y=alt.Y("weight:Q", title=pose, scale=alt.Scale(domain=[0, 1.15]), axis=alt.Axis(values=[0, 0.5, 1])),
-                color=colour,
-                detail="curve:N",
-                tooltip=["stage:N", "curve:N", alt.Tooltip("seconds:Q", format=".3f"), alt.Tooltip("weight:Q", format=".3f")],
-            )
+    colours = [blue() if stage == "final" else STAGE_COLOURS[stage] for stage in order]
+    floors = {pose: ROOM * k for k, pose in enumerate(reversed(poses))}
+    data = pd.concat([_stage(made, pose, stage, window).assign(pose=pose) for pose in poses for stage in order], ignore_index=True)
+    data["height"] = data.weight + data.pose.map(floors)
+    if len(poses) == 1:
+        axis = alt.Axis(values=[0, 0.5, 1])
+    else:
+        names = " : ".join(f"datum.value == {floor} ? '{pose}'" for pose, floor in floors.items())
+        axis = alt.Axis(values=list(floors.values()), labelExpr=f"{names} : ''", labelBaseline="bottom")
+    lines = (
+        alt.Chart(data)
+        .mark_line(strokeWidth=1.6, clip=True)
+        .encode(
+            x=alt.X("seconds:Q", title="seconds", scale=alt.Scale(domain=list(window), nice=False)),
+            y=alt.Y(
+                "height:Q",
+                title=poses[0] if len(poses) == 1 else None,
+                scale=alt.Scale(domain=[0, ROOM * len(poses)], nice=False),
+                axis=axis,
+            ),
+            color=alt.Color("stage:N", scale=alt.Scale(domain=order, range=colours), legend=alt.Legend(orient="top", title=None)),
+            detail=["curve:N", "pose:N"],
+            tooltip=["pose:N", "stage:N", "curve:N", alt.Tooltip("seconds:Q", format=".3f"), alt.Tooltip("weight:Q", format=".3f")],
         )
-        named = single or pose == poses[0]
-        return alt.layer(*_phones(schedule, window, named=named), lines).properties(height=320 if single else 90, width="container")
-
-    return panel(poses[0]) if single else alt.vconcat(*map(panel, poses), spacing=4)
+    )
+    return alt.layer(*_phones(schedule, window), lines).properties(height=320 if len(poses) == 1 else 80 + 70 * len(poses))
 
 
-def _phones(schedule: Schedule, window: tuple[float, float], *, named: bool) -> list[alt.Chart]:
+def _phones(schedule: Schedule, window: tuple[float, float]) -> list[alt.Chart]:
     """A line where each common phone begins, and its name where there is room."""
     edges, names = schedule.common()
     seconds = np.array(edges) / 1e6
-    borders = pd.DataFrame({"start": seconds[:-1], "seconds": (seconds[:-1] + seconds[1:]) / 2, "wide": np.diff(seconds), "phone": names})
-    seen = borders[(borders.start < window[1]) & (borders.start >= window[0])]
-    charts = [alt.Chart(seen).mark_rule(opacity=0.3, color=GREY).encode(x=alt.X("start:Q", title="seconds"))]
-    if named:
-        roomy = seen[seen.wide > 0.008 * (window[1] - window[0])]
-        text = alt.Chart(roomy).mark_text(baseline="top", dy=2, fontSize=11, color=GREY)
-        charts.append(text.encode(x="seconds:Q", y=alt.value(0), text="phone:N"))
-    return charts
+    phones = pd.DataFrame({"start": seconds[:-1], "seconds": (seconds[:-1] + seconds[1:]) / 2, "wide": np.diff(seconds), "phone": names})
+    seen = phones[(phones.start < window[1]) & (phones.start >= window[0])]
+    borders = alt.Chart(seen).mark_rule(opacity=0.3, color=GREY).encode(x=alt.X("start:Q", title="seconds"))
+    text = alt.Chart(seen[seen.wide > 0.008 * (window[1] - window[0])]).mark_text(baseline="top", dy=2, fontSize=11, color=GREY)
+    return [borders, text.encode(x="seconds:Q", y=alt.value(0), text="phone:N")]
 
 
 def _stage(made: Stages, pose: str, stage: str, window: tuple[float, float]) -> pd.DataFrame:

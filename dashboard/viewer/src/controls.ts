@@ -1,7 +1,7 @@
 // The row of buttons under the faces, and the keys that do the same.
 
 import { icon, type IconName } from "./icons";
-import { VIEWS, type ViewName } from "./mesh";
+import { VIEWS, type ViewName } from "./views";
 
 const SPEEDS = [0.25, 0.5, 0.75, 1];
 
@@ -110,7 +110,7 @@ export class Controls {
 
   /** Only a mesh can be seen from several sides. */
   turnable(yes: boolean): void {
-    for (const [, each] of this.views) each.disabled = !yes;
+    this.look.hidden = !yes;
   }
 
   show(now: Shown): void {

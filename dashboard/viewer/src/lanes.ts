@@ -16,6 +16,12 @@ export interface LaneEvents {
   pick(time: number): void;
 }
 
+/** Whether `colour`, as a browser computes it, is nearer to white than to black: letters are so on a dark page. */
+function bright(colour: string): boolean {
+  const [red = 0, green = 0, blue = 0] = (colour.match(/[\d.]+/g) ?? []).map(Number);
+  return red + green + blue > 382;
+}
+
 /** Two canvases: what stays is painted when it changes, what moves is painted over it every frame. */
 export class Lanes {
   readonly root = document.createElement("div");
@@ -23,7 +29,7 @@ export class Lanes {
   private readonly moving = document.createElement("canvas");
   private data: StageData | null = null;
   private rows: Row[] = [];
-  private theme: Theme = { ink: "#222", line: "#ccc", accent: "#0072b2", font: "12px sans-serif" };
+  private theme: Theme = { ink: "#222", line: "#ccc", accent: "#0072b2", font: "12px sans-serif", dark: false };
   private axis: Axis = { from: 0, to: 1, left: 84, right: 85 };
   private selection: Range | null = null;
   private pressed: { x: number; time: number; selects: boolean; moved: boolean } | null = null;
@@ -165,6 +171,7 @@ export class Lanes {
       line: read("--st-border-color", "#ccc"),
       accent: read("--st-primary-color", "#0072b2"),
       font: `12px ${style.fontFamily || "sans-serif"}`,
+      dark: bright(style.color),
     };
   }
 

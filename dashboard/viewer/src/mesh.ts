@@ -1,7 +1,8 @@
 // A character's mesh, drawn from one or several sides.
 
 import {
-  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera,
+  PMREMGenerator, Scene, Vector3, WebGLRenderer,
   type Group, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -11,16 +12,12 @@ import { Track, type Loaded } from "./data";
 import { bytes } from "./files";
 import { Morph } from "./morph";
 import { Pace } from "./pace";
+import { placed, SLIM, VIEWS, type Place } from "./views";
 
-/** Degrees around the head at which a view stands; the first one can be turned by hand. */
-export const VIEWS = { front: [0], "¾": [38], side: [90], all: [0, 38, 90] } satisfies Record<string, number[]>;
-export type ViewName = keyof typeof VIEWS;
 const FIELD = 24;
 
 /** How much more than what moves is shown. */
 const ROOM = 0.66;
-/** How much taller than wide a head is. */
-const SLIM = 1.15;
 const MIRRORED = 64; // pixels of each side of the room that faces mirror; skin shows no more
 const REST = 500; // milliseconds of standing still after which a coarse picture is drawn once more, sharp
 
@@ -112,6 +109,7 @@ export class MeshView {
       if (this.model) free(this.model);
       this.model?.removeFromParent();
       this.model = loaded.scene;
+      if (software) dull(this.model);
       this.scene.add(this.model);
       this.moving = [];
       this.model.traverse((part) => {
@@ -158,14 +156,10 @@ export class MeshView {
 
   look(angles: number[]): void {
     this.angles = angles;
-    const tall = (FIELD / 2) * (Math.PI / 180);
-    const wide = Math.atan(Math.tan(tall) * Math.min(this.aspect * SLIM, 1)); // as far away as a narrow picture needs
-    const distance = (this.radius / Math.sin(wide)) * 0.86;
-    this.cameras.forEach((camera, k) => {
-      const angle = ((angles[k] ?? 0) * Math.PI) / 180;
-      camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(distance).add(this.centre);
-      camera.near = distance / 100;
-      camera.far = distance * 10;
+    this.places.forEach(({ aspect }, k) => {
+      const angle = (angles[k] * Math.PI) / 180;
+      const camera = this.cameras[k];
+      camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(this.distance(aspect)).add(this.centre);
       camera.lookAt(this.centre);
     });
     this.controls.target.copy(this.centre);
@@ -173,11 +167,22 @@ export class MeshView {
     this.dirty = true;
   }
 
-  private get aspect(): number {
-    return this.canvas.clientWidth / this.angles.length / Math.max(this.canvas.clientHeight, 1) || 1;
+  /** As far away as a picture of this shape needs. */
+  private distance(aspect: number): number {
+    const tall = (FIELD / 2) * (Math.PI / 180);
+    return (this.radius / Math.sin(Math.atan(Math.tan(tall) * Math.min(aspect * SLIM, 1)))) * 0.86;
+  }
+
+  /** Where the views stand on the canvas. */
+  private get places(): Place[] {
+    return placed(this.angles.length, this.canvas.clientWidth || 1, this.canvas.clientHeight || 1);
   }
 
   resize(width: number, height: number): void {
+    this.places.forEach(({ aspect }, k) => {
+      const camera = this.cameras[k];
+      if (aspect !== camera.aspect) camera.position.sub(this.centre).setLength(this.distance(aspect)).add(this.centre);
+    });
     this.size(width, height, this.coarse ? this.pace.sharpness : 1);
   }
 
@@ -199,14 +204,15 @@ export class MeshView {
     this.drawn = now;
     this.track.at(time, this.weights);
     this.moving.forEach(({ morph }) => morph.apply(this.weights));
-    const part = width / this.angles.length;
     this.renderer.setScissorTest(true);
-    this.angles.forEach((_, k) => {
+    this.places.forEach(({ left, bottom, width, height, aspect }, k) => {
       const camera = this.cameras[k];
-      camera.aspect = this.aspect;
+      camera.aspect = aspect;
+      camera.near = this.radius / 10;
+      camera.far = this.radius * 100;
       camera.updateProjectionMatrix();
-      this.renderer.setViewport(k * part, 0, part, height);
-      this.renderer.setScissor(k * part, 0, part, height);
+      this.renderer.setViewport(left, bottom, width, height);
+      this.renderer.setScissor(left, bottom, width, height);
       this.renderer.render(this.scene, camera);
     });
     this.dirty = false;
@@ -233,6 +239,16 @@ export class MeshView {
     this.renderer.dispose();
     this.renderer.forceContextLoss(); // browsers allow sixteen at a time
   }
+}
+
+/** Take the shine off: the processor is ready a second sooner with a material that has none. */
+function dull(model: Object3D): void {
+  model.traverse((part) => {
+    if (!(part instanceof Mesh && part.material instanceof MeshStandardMaterial)) return;
+    const { color, map, vertexColors, side, transparent, opacity, alphaTest } = part.material;
+    part.material.dispose();
+    part.material = new MeshLambertMaterial({ color, map, vertexColors, side, transparent, opacity, alphaTest });
+  });
 }
 
 function free(model: Object3D): void {

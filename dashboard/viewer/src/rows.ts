@@ -20,6 +20,7 @@ export interface Theme {
   line: string;
   accent: string;
   font: string;
+  dark: boolean;
 }
 
 /** A row of the lanes. `labels` stand beside it: its name, and what changes with time. */
@@ -30,8 +31,9 @@ export interface Row {
   value?(time: number): string;
 }
 
-/** Okabe and Ito's colours, which people with any kind of colour vision can tell apart. */
+/** Okabe and Ito's colours, which people with any kind of colour vision can tell apart; on a dark page the dark ones are lighter. */
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d1f"];
+const LIGHTER: Record<string, string> = { "#0072b2": "#3d9ad6", "#8c6d1f": "#b8963e" };
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 120, 300];
 const STILL = 0.005; // a weight that nobody sees
 
@@ -46,8 +48,9 @@ export function timeRow(): Row {
       pen.textAlign = "center";
       for (let k = Math.ceil(axis.from / step); k * step <= axis.to; k++) {
         const x = xOf(axis, k * step);
+        const text = `${+(k * step).toFixed(2)}`;
         pen.fillStyle = ink;
-        pen.fillText(`${+(k * step).toFixed(2)}`, x, top + 9);
+        pen.fillText(text, Math.min(x, axis.right - pen.measureText(text).width / 2), top + 9);
         pen.fillStyle = line;
         pen.fillRect(x, top + 16, 1, pen.canvas.height);
       }
@@ -121,7 +124,8 @@ export function poseRow(name: string, colour: string, columns: { track: Track; k
   return {
     name,
     height,
-    draw(pen, top, axis, { line }) {
+    draw(pen, top, axis, { line, dark }) {
+      const shade = (dark && LIGHTER[colour]) || colour;
       const floor = top + height - 3;
       pen.fillStyle = line;
       pen.fillRect(axis.left, floor, axis.right - axis.left, 1);
@@ -134,14 +138,14 @@ export function poseRow(name: string, colour: string, columns: { track: Track; k
           const weight = track.values[f * track.names.length + k];
           pen.lineTo(xOf(axis, f / track.fps), floor - (height - 6) * weight);
         }
-        pen.strokeStyle = colour;
+        pen.strokeStyle = shade;
         pen.lineWidth = 1.5;
         pen.setLineDash(second ? [3, 3] : []);
         pen.stroke();
         if (second) return;
         pen.lineTo(xOf(axis, last / track.fps), floor);
         pen.lineTo(xOf(axis, first / track.fps), floor);
-        pen.fillStyle = colour + "33";
+        pen.fillStyle = shade + "33";
         pen.fill();
       });
       pen.setLineDash([]);

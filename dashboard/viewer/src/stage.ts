@@ -5,8 +5,9 @@ import { Controls } from "./controls";
 import { loaded, Track, type Loaded, type StageData } from "./data";
 import { bytes } from "./files";
 import { Lanes } from "./lanes";
-import { MeshView, VIEWS, type ViewName } from "./mesh";
+import { MeshView } from "./mesh";
 import { PictureView } from "./pictures";
+import { VIEWS, type ViewName } from "./views";
 
 interface Component {
   data: StageData;
@@ -118,6 +119,7 @@ export class Stage {
   }
 
   private async take(data: StageData): Promise<void> {
+    for (const face of data.faces) if (face.kind === "mesh") void bytes(face.url).catch(() => {}); // the largest file: ask for it first
     try {
       const [peaks, ...faces] = await Promise.all([
         data.peaks ? bytes(data.peaks) : new ArrayBuffer(0),
