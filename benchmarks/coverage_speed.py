@@ -18,25 +18,15 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
-import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 import corpus_text
+from processes import Run, measured
 
 EXACT_UP_TO = 10
 """MB; more would take longer than five minutes."""
-
-
-class Run(NamedTuple):
-    """One run: seconds by the clock, seconds of processors, megabytes of the largest process."""
-
-    wall: float
-    processor: float
-    memory: float
 
 
 def main() -> None:
@@ -121,14 +111,7 @@ def run(prepare: Callable[[], None], command: list[str]) -> Run:
     prepare()
     folder = Path(command[command.index("-o") + 1]).parent if "-o" in command else None
     environment = {**os.environ, "LIPDB_CACHE": str(folder / "cache"), "LIPDB_HOME": str(folder / "home")} if folder else dict(os.environ)
-    started = time.perf_counter()
-    process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    error = process.stderr.read() if process.stderr else b""
-    _, status, usage = os.wait4(process.pid, 0)
-    wall = time.perf_counter() - started
-    if status:
-        raise SystemExit(f"{' '.join(command)} failed: {error.decode()}")
-    return Run(wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1e3)
+    return measured(command, environment)
 
 
 if __name__ == "__main__":
