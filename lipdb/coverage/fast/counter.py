@@ -22,7 +22,7 @@ from lipdb.coverage.fast.forms import Forms
 from lipdb.coverage.fast.lexicon import REMARKS, Masks, mask_of
 from lipdb.coverage.fast.lexicon_files import MOST, join_files, share
 from lipdb.coverage.fast.opened import context_of, keep_forms, open_forms
-from lipdb.coverage.fast.running import LEFT_OUT, Running, running
+from lipdb.coverage.fast.running import ENDS, LEFT_OUT, Running, running
 from lipdb.coverage.fast.word_pairs import pairs_of
 from lipdb.coverage.fast.words import Keys, keys_of, spans_of
 from lipdb.coverage.findings import CONTROLS, EMOJI, NO_WORDS
@@ -149,7 +149,7 @@ def _with_lines(lines: Lines, found: Running) -> Masks:
     for line in found.unread.tolist():
         remarks[line] |= np.uint32(mask_of(_unread(lines.texts[line].as_py())))
     spoken = np.zeros(len(lines.texts), bool)
-    spoken[found.line] = True
+    spoken[found.line[found.behind == ENDS]] = True
     remarks[~spoken & (remarks & LEFT_OUT == 0)] = np.uint32(mask_of((NO_WORDS,)))
     return remarks
 

@@ -58,7 +58,7 @@ class Forms:
         """The reading of every word of *found*, whole lines, and what is behind it when it is said."""
         if len(self._traits) < len(self.lexicon):
             self._grow()
-        traits, behind = self._traits[found.words], found.behind
+        traits, behind = self._traits.take(found.words), found.behind
         if self._pauses.size:
             goes_on = (traits & _FLOWS_AFTER) * (behind == PAUSES)
             stops = (traits[1:] & _PAUSES_BEFORE) * (behind[:-1] == FLOWS)
@@ -68,7 +68,7 @@ class Forms:
         place = np.full(len(behind), PAUSE * KINDS + PAUSE, np.uint8)
         place[:-1] += (traits[1:] & _BEGINS) * flows
         place[1:] += ((traits[:-1] & _ENDS) >> _SHIFT) * flows * np.uint8(KINDS)
-        return self._readings[found.words * PLACES + place], behind
+        return self._readings.take(found.words * PLACES + place), behind
 
     def _grow(self) -> None:
         """Make arrays for all words that the lexicon has by now."""

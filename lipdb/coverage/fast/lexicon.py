@@ -71,14 +71,13 @@ class Lexicon:
 
     def arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """All that `restore` needs: arrays, and plain data."""
-        keys, numbers = self._words.slots
         told = {"names": self.readings.names, "files": sorted(self.files)}
-        return {"keys": keys, "numbers": numbers, "reading": self.reading, "remarks": self.remarks, **self.readings.arrays()}, told
+        return {"words": self._words.slots.reshape(-1), "reading": self.reading, "remarks": self.remarks, **self.readings.arrays()}, told
 
     def restore(self, arrays: dict[str, NDArray[Any]], told: dict[str, Any]) -> None:
         """Take over what `arrays` gave of another lexicon of the same voice; this one is empty."""
         self.reading, self.remarks = arrays.pop("reading"), arrays.pop("remarks")
-        self._words = Codes.of(arrays.pop("keys"), arrays.pop("numbers"), len(self.reading))
+        self._words = Codes.of(arrays.pop("words").reshape(-1, 2), len(self.reading))
         self.unusual = (self.remarks != 0) | (self.reading == 0)
         self.readings, self.files = Readings.of(told["names"], **arrays), set(told["files"])
 
@@ -96,7 +95,7 @@ class Lexicon:
             self._enter(asked, self.readings.number(asked["reading"].combine_chunks()))
             self.asked = pa.concat_tables([self.asked, asked])
             numbers[new] = self._words.find(keys[new])
-        return numbers.astype(np.int64)  # numpy takes by nothing else
+        return numbers
 
     def gaps(self, words: Words, places: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Whether the voice pauses in the gaps at *places*."""

@@ -24,7 +24,7 @@ from lipdb.speech.voice import Voice
 
 LEARNING = 1
 """Change it with anything that changes what is learned of the same sentences."""
-FORMAT = 1
+FORMAT = 2
 """Change it with anything that changes the arrays of the same answers."""
 _CONTEXT, _FORMS = "context-", "forms-"
 

@@ -78,11 +78,15 @@ def _running(lexicon: Lexicon, texts: pa.StringArray, first: int) -> tuple[Place
     places = places[behind[places] == FLOWS]
     behind[places] = lexicon.gaps(words, places)
     remarks = np.zeros(len(texts), np.uint32)
-    if lexicon.unusual[numbers].any():
-        remarked = np.flatnonzero(lexicon.remarks[numbers])
-        np.bitwise_or.at(remarks, line[remarked], lexicon.remarks[numbers[remarked]])
-        kept = np.flatnonzero((lexicon.reading[numbers] != 0) & (remarks & LEFT_OUT == 0)[line])
-        if len(kept) < len(words):
+    unusual = np.flatnonzero(lexicon.unusual.take(numbers))
+    if unusual.size:
+        np.bitwise_or.at(remarks, line[unusual], lexicon.remarks[numbers[unusual]])
+        dropped = np.zeros(len(words), bool)
+        dropped[unusual] = lexicon.reading[numbers[unusual]] == 0
+        if (left_out := remarks & LEFT_OUT != 0).any():
+            dropped |= left_out[line]
+        if dropped.any():
+            kept = np.flatnonzero(~dropped)
             # What stood behind a word that is not there stands behind the one in front of it.
             behind = np.maximum.reduceat(behind, kept) if kept.size else behind[:0]
             numbers, line = numbers[kept], line[kept]

@@ -24,15 +24,19 @@ _LARGE = 20_000  # Words. Documents of more are counted one by one, smaller ones
 
 def pairs_of(lines: Lines, found: Running, forms: Forms) -> pa.Table:
     """The pairs of labels in *found*, the words of *lines*, by document."""
-    document = lines.document[found.line] if len(lines.names) > 1 else np.zeros(len(found), np.int32)
-    edges = np.flatnonzero(np.diff(document, prepend=-1, append=-1)) if len(found) else np.zeros(1, np.int64)
-    if len(found) < _LARGE * (len(edges) - 1):
-        return _small(lines, found, document, forms)
-    tables = [
-        _table(lines.names[document[first]], _matrix(found.part(first, last), forms), forms.lexicon.readings)
-        for first, last in pairwise(edges.tolist())
-    ]
-    return pa.concat_tables([PAIRS.empty_table(), *tables])
+    if not len(found):
+        return PAIRS.empty_table()
+    names, edges = list(lines.names), [0, len(found)]
+    if len(names) > 1:
+        document = lines.document[found.line]
+        edges = np.flatnonzero(np.diff(document, prepend=-1, append=-1)).tolist()
+        names = [names[number] for number in document[edges[:-1]].tolist()]
+    if len(found) < _LARGE * len(names):
+        return _small(lines, found, forms)
+    return pa.concat_tables(
+        _table(name, _matrix(found.part(first, last), forms), forms.lexicon.readings)
+        for name, (first, last) in zip(names, pairwise(edges), strict=True)
+    )
 
 
 def _matrix(found: Running, forms: Forms) -> NDArray[np.int64]:
@@ -43,24 +47,25 @@ def _matrix(found: Running, forms: Forms) -> NDArray[np.int64]:
     said: list[Numbers] = []
     for part in found.parts(_AT_ONCE):
         readings, behind = forms.said(part)
-        outer = table.outer[readings]
-        count += _across(outer >> 16, outer & 0xFFFF, behind, size)
+        count += _across(table.outer.take(readings), behind, size)
         said.append(readings)
     often = np.bincount(np.concatenate(said))
     there = np.flatnonzero(often)
+    matrix = count.reshape(size, size)
+    # In front of a word that no other flows into stands a silence.
+    first = np.bincount(table.first[there], often[there], size).astype(np.int64)
+    matrix[0, 1:] = (first - matrix.sum(axis=0))[1:]
     labels, owner = _spelled_out(there, table)
     inner = owner[1:] == owner[:-1]
     within = np.bincount(labels[:-1][inner] * size + labels[1:][inner], often[there][owner[1:][inner]], minlength=size * size)
-    return (count + within.astype(np.int64)).reshape(size, size)
+    return matrix + within.astype(np.int64).reshape(size, size)
 
 
-def _across(first: Numbers, last: Numbers, behind: NDArray[np.uint8], size: int) -> NDArray[np.int64]:
-    """The pairs between words with these outer labels, and between them and the silence around them."""
-    flows = behind[:-1] == FLOWS
-    count = np.bincount(last[:-1] * size + first[1:] * flows, minlength=size * size)
-    count += np.bincount(first[1:][~flows], minlength=size * size)
-    count[[first[0], last[-1] * size]] += 1
-    return count
+def _across(outer: Numbers, behind: NDArray[np.uint8], size: int) -> NDArray[np.int64]:
+    """The pairs between words with these *outer* labels, and of their last labels and the silence behind them."""
+    pairs = (outer & 0xFFFF) * size
+    pairs[:-1] += (outer[1:] >> 16) * (behind[:-1] == FLOWS)
+    return np.bincount(pairs, minlength=size * size)
 
 
 def _spelled_out(readings: NDArray[np.integer], table: Readings) -> tuple[Numbers, NDArray[np.int64]]:
@@ -80,7 +85,7 @@ def _table(name: str, matrix: NDArray[np.int64], table: Readings) -> pa.Table:
     return pa.table([document, names.take(pa.array(left)), names.take(pa.array(right)), pa.array(matrix[left, right])], schema=PAIRS)
 
 
-def _small(lines: Lines, found: Running, document: Numbers, forms: Forms) -> pa.Table:
+def _small(lines: Lines, found: Running, forms: Forms) -> pa.Table:
     """The pairs of many small documents: every label is written out."""
     readings, behind = forms.said(found)
     table = forms.lexicon.readings
@@ -90,4 +95,4 @@ def _small(lines: Lines, found: Running, document: Numbers, forms: Forms) -> pa.
     before, after = np.flatnonzero(opens), np.flatnonzero(behind != FLOWS)
     places = np.concatenate([np.searchsorted(owner, after, side="right"), np.searchsorted(owner, before)])
     owners = np.insert(owner, places, np.concatenate([after, before]))
-    return pair_table(lines, document[owners], np.insert(labels, places, 0), list(table.names))
+    return pair_table(lines, lines.document[found.line[owners]], np.insert(labels, places, 0), list(table.names))
