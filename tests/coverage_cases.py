@@ -62,8 +62,8 @@ def obey(text: str) -> None:
 
 def text(lines: int, *, seed: int = 0) -> str:
     """Lines of a few words, the same for the same seed."""
-    chance = np.random.default_rng(seed)
-    return "".join(" ".join(WORDS[k] for k in chance.integers(0, len(WORDS), 6)) + "\n" for _ in range(lines))
+    chosen = np.random.default_rng(seed).integers(0, len(WORDS), (lines, 6)).tolist()
+    return "".join(" ".join([WORDS[k] for k in six]) + "\n" for six in chosen)
 
 
 def pairs_in(*texts: str) -> dict[tuple[str, str], int]:

@@ -146,7 +146,7 @@ json_values = st.recursive(
 )
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data(), json_values)
 def test_whatever_stands_in_a_lines_json_it_moves_or_is_refused(
     db: lipdb.Database, performance: dict[str, Any], tmp_path: Path, data: st.DataObject, value: Any

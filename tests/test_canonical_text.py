@@ -90,7 +90,7 @@ def store(tmp_path_factory):
     store.close()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(made=records())
 def test_dumping_what_was_loaded_from_canonical_text_gives_the_same_bytes(store, made):
     with TemporaryDirectory() as folder:

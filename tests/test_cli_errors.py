@@ -46,6 +46,8 @@ def run(db: lipdb.Database, own_places: Path, tmp_path: Path, monkeypatch: pytes
         (["say", "你好"], 4, "Chinese characters"),
         (["say", "Hello", "-l", "cmn"], 4, "neither Chinese nor pinyin"),
         (["say", "hi", "-l", "eng"], 4, "did you mean 'en'"),
+        (["say", "hi", "--voice", "en-us+f9"], 4, "did you mean 'en-us+f"),
+        (["say", "hi", "--voice", "zzz"], 4, "no voice of en 'zzz'; there are en-us, en-us+Andy, "),
         (["say", "hi", "-c", "crabb"], 4, "did you mean 'crab'"),
         (["say", "hi", "-c", "../crab"], 4, "no character"),
         (["say", "hi", "-o", "x"], 4, ".mp4"),

@@ -178,7 +178,7 @@ TROUBLE = st.text(
 
 
 @pytest.mark.parametrize("language", ["en", "cmn", "de"])
-@settings(max_examples=150, deadline=5000, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(texts=st.lists(TROUBLE, min_size=1, max_size=4))
 def test_no_text_stops_a_scan_or_gets_lost(db: lipdb.Database, language: str, texts: list[str]) -> None:
     counts = ExactCounter(db.voice(language).raw()).count(lines_of(*texts))

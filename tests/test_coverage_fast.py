@@ -103,14 +103,12 @@ def test_words_are_cut_where_people_see_them(texts: list[str], expected: list[st
     assert words_of(*texts) == expected
 
 
-@settings(deadline=None)
 @given(st.lists(st.text(max_size=12), max_size=6))
 def test_cutting_never_crosses_a_line(texts: list[str]) -> None:
     texts = [text.replace("\n", " ").encode(errors="replace").decode() for text in texts]
     assert words_of(*texts) == [word for text in texts for word in words_of(text)]
 
 
-@settings(deadline=None)
 @given(st.lists(st.binary(min_size=1, max_size=40).filter(lambda text: not text.endswith(b"\0")), unique=True, max_size=30))
 def test_different_words_have_different_keys(words: list[bytes]) -> None:
     ends = np.cumsum([len(word) for word in words], dtype=np.int64)
@@ -118,7 +116,6 @@ def test_different_words_have_different_keys(words: list[bytes]) -> None:
     assert len(set(keys_of(b"".join(words), starts, ends).tolist())) == len(words)
 
 
-@settings(deadline=None)
 @given(st.lists(st.sets(st.integers(1, 2**64 - 1), max_size=40), max_size=6))
 def test_keys_keep_their_numbers_however_many_come(batches: list[set[int]]) -> None:
     codes, expected = Codes(), dict[int, int]()
@@ -172,7 +169,7 @@ def test_nothing_is_learned_from_nothing() -> None:
     assert learn(Lexicon(Letters()), []) == learn(Lexicon(Letters()), ["…"]) == Context()
 
 
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(st.lists(st.sampled_from(TEXT), min_size=1, max_size=12), st.integers(1, 4), st.data())
 def test_counts_of_parts_add_up_to_counts_of_the_whole(texts: list[str], documents: int, data: st.DataObject) -> None:
     of = sorted(data.draw(st.lists(st.integers(0, documents - 1), min_size=len(texts), max_size=len(texts))))

@@ -159,7 +159,7 @@ def test_a_corpus_of_which_nothing_can_be_counted_is_reported_and_an_error(tmp_p
 
 
 def test_stopped_by_a_person_it_leaves_no_process_and_goes_on_next_time(tmp_path: Path) -> None:
-    corpus = write(tmp_path, corpus=text(60_000)) / "corpus"
+    corpus = write(tmp_path, corpus=text(400_000)) / "corpus"  # more than is counted before anybody can stop it
     command = [sys.executable, "-m", "lipdb", "--db", str(tmp_path / "own.db"), "coverage", "scan", str(corpus), "--workers", "2"]
     environment = {**os.environ, "LIPDB_CACHE": str(tmp_path / "cache")}
     with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lipdb import engine
@@ -45,7 +45,6 @@ def opening(track):
 TIMED = st.lists(st.tuples(st.sampled_from(SOUNDS), st.integers(60, 250)), min_size=1, max_size=12)
 
 
-@settings(deadline=None)
 @given(TIMED, st.sampled_from(RATES))
 def test_every_closure_of_60_ms_or_more_reaches_its_authored_peak(timed, fps):
     phones, lengths = ["_", *(phone for phone, _ in timed), "_"], [300, *(length for _, length in timed), 300]
@@ -58,7 +57,6 @@ def test_every_closure_of_60_ms_or_more_reaches_its_authored_peak(timed, fps):
             assert track.pose(pose)[within(track, edges[n], edges[n + 1])].max() >= 0.98 * authored
 
 
-@settings(deadline=None)
 @given(TIMED, st.sampled_from(RATES))
 def test_robins_lips_meet_at_every_closure(timed, fps):
     phones, lengths = ["_", "aa", *(phone for phone, _ in timed), "_"], [300, 150, *(length for _, length in timed), 300]
@@ -74,7 +72,6 @@ SHORTEST = {60: (60, 80), 30: (80, 80), 25: (80, 100), 24: (80, 100)}
 """The shortest closure and vowel by frame rate: at 24 frames a second, two frames are as long as a short vowel."""
 
 
-@settings(deadline=None)
 @given(BETWEEN, st.integers(0, 80), st.sampled_from(RATES))
 def test_lips_open_between_closures(vowels, longer, fps):
     """Bob, baby, mama, papa: each vowel opens more than a quarter of the line's widest."""
@@ -140,7 +137,6 @@ def test_the_mouth_is_rounder_for_who_than_for_he():
     assert width("w") < 0.8 * width("ih")
 
 
-@settings(deadline=None)
 @given(TIMED)
 def test_nothing_pops_between_frames(timed):
     """At 60 frames a second no weight moves faster than the pose set lets it, and the lips not by half their range."""

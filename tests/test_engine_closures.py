@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from lipdb.engine import CurveTable, animate
 from lipdb.engine.smooth import valleys
 
-SLOW = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 
 
 def reached(track, edges, phones, phone, pose):
@@ -57,7 +57,7 @@ def test_closures_reach_sharp_peaks_that_fall_between_frames(fps, data):
 @given(
     lengths=st.lists(st.integers(80_000, 250_000), min_size=5, max_size=5), stop=st.integers(60_000, 120_000), start=st.integers(0, 100_000)
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_the_mouth_opens_between_closures_of_bob_baby_mama_papa(word, fps, lengths, stop, start):
     phones = ["_", *word.split("-"), "_"]
     closed = ("_", "bmp", "f")

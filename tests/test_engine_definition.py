@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from lipdb.engine import animate
 
-SLOW = settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=80, suppress_health_check=[HealthCheck.too_slow])
 
 
 @SLOW

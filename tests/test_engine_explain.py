@@ -15,7 +15,7 @@ BOB = [0, 300_000, 400_000, 520_000, 620_000, 900_000], ["_", "bmp", "ah", "bmp"
 
 
 @pytest.mark.parametrize("fps", [60.0, 24.0])
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.data())
 def test_the_stages_end_in_the_track(fps, data):
     rules, table = data.draw(cases.worlds())
@@ -30,7 +30,7 @@ def test_the_stages_end_in_the_track(fps, data):
     assert (made.limited[:, ~held] <= made.constrained[:, ~held]).all()
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.data())
 def test_stitched_weights_are_the_largest_of_the_laid_curves(data):
     rules, table = data.draw(cases.worlds(must=False))

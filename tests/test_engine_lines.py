@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from lipdb.engine import animate, animate_lines, play
 
-SLOW = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=40, suppress_health_check=[HealthCheck.too_slow])
 
 
 @pytest.mark.parametrize("fps", [60.0, 24.0, 120.0])

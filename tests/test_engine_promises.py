@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from lipdb.engine import animate
 
-SLOW = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 
 
 @pytest.mark.parametrize("fps", cases.RATES)

@@ -14,7 +14,7 @@ from lipdb.engine import animate
 from lipdb.engine.timeline import rate_of
 from lipdb.errors import InputError
 
-SLOW = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 
 
 @SLOW

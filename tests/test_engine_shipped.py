@@ -16,7 +16,7 @@ from lipdb.engine import animate
 from lipdb.paths import phonesets_dir
 from lipdb.poses import PoseSet
 
-SLOW = settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
+SLOW = settings(max_examples=20, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
 CLOSURES = (("bmp", "PBM"), ("f", "FV"))
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from lipdb.engine import CurveTable, animate
 
-SLOW = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 
 
 def whole_shift(fps: float) -> tuple[int, int]:

@@ -62,7 +62,7 @@ def _weight(track: Track, frame: int, shape: str) -> float:
     return REST_WEIGHT if shape == "X" else float(track.pose(shape)[frame])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(arrays(np.float64, (7, 2), elements=st.floats(0, 1)), st.integers(1, 4))
 def test_no_other_cut_shows_more_weight(weights: np.ndarray, hold: int) -> None:
     track = Track(weights, ("A", "B"), 10.0)

@@ -111,7 +111,7 @@ def _places(value: object, at: tuple[str | int, ...] = ()) -> Iterator[tuple[str
         yield from _places(inner, (*at, key))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(data=st.data())
 def test_json_with_one_value_changed_reads_or_is_refused_in_one_line(
     take: Performance, data: st.DataObject, tmp_path_factory: pytest.TempPathFactory

@@ -72,7 +72,7 @@ def test_the_file_that_is_damaged_below_is_a_good_one():
     assert np.allclose(mesh.parts[0].colours[0] * 255, [200, 100, 50])
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(st.lists(st.tuples(st.integers(0, len(GOOD) - 1), st.integers(0, 255)), min_size=1, max_size=8))
 def test_changed_bytes(changes):
     data = bytearray(GOOD)
@@ -81,7 +81,7 @@ def test_changed_bytes(changes):
     outcome(bytes(data))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.integers(0, len(GOOD)), st.binary(max_size=40))
 def test_cut_off_and_continued_files(end, tail):
     outcome(GOOD[:end] + tail)
@@ -94,7 +94,7 @@ STRANGE = st.one_of(
 )  # fmt: skip
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 @given(st.lists(st.tuples(st.sampled_from(sorted(places(CONTENT), key=repr)), STRANGE), min_size=1, max_size=3))
 def test_strange_values_anywhere_in_the_json(changes):
     content = copy.deepcopy(CONTENT)
@@ -110,7 +110,7 @@ def test_strange_values_anywhere_in_the_json(changes):
     outcome(container(json.dumps(content).encode(), DATA))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.binary(max_size=200))
 def test_any_bytes(data):
     outcome(data)

@@ -5,7 +5,7 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lipdb.characters.crab import crab
@@ -53,7 +53,6 @@ def meshes(draw):
     return Mesh("any", (Part("any", draw(points), faces, np.full((count, 3), 0.5), shapes=shapes),))
 
 
-@settings(deadline=None)
 @given(meshes())
 def test_any_mesh_reads_back(mesh):
     (read,) = parse_glb(glb_bytes(mesh), name="any").parts

@@ -66,7 +66,7 @@ def test_another_text_is_another_entry(tmp_path: Path):
     assert voice.asked == ["mm", "mm "]
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
 @given(data=st.data())
 def test_a_damaged_entry_is_the_same_or_made_again(tmp_path: Path, data: st.DataObject):
     voice = Humming()

@@ -3,7 +3,9 @@
 import pytest
 
 import lipdb
+from lipdb.cli import cli
 from lipdb.errors import InputError
+from lipdb.sound import read_wav
 
 
 @pytest.fixture(scope="module")
@@ -29,3 +31,11 @@ def test_the_language_s_own_voice_is_the_default(db) -> None:
 def test_a_language_that_there_is_not_has_no_voices(db) -> None:
     with pytest.raises(InputError, match="no language"):
         db.voices("xx")
+
+
+def test_the_command_line_speaks_with_the_voice_that_it_is_given(db, tmp_path) -> None:
+    for voice in ("en-us", "en-us+f2"):
+        file = tmp_path / f"{voice}.wav"
+        cli.main(["--db", db.store.where, "say", "Bob", "--voice", voice, "-o", str(file)], standalone_mode=False)
+        spoken = db.say("Bob", voice=voice).sound.samples
+        assert read_wav(file).samples[: len(spoken)].tolist() == spoken.tolist()

@@ -193,5 +193,5 @@ class AnyEdits(RuleBasedStateMachine):
         self.folder.cleanup()
 
 
-AnyEdits.TestCase.settings = settings(max_examples=10, stateful_step_count=10, deadline=None)
+AnyEdits.TestCase.settings = settings(max_examples=10, stateful_step_count=10)
 TestAnyEdits = AnyEdits.TestCase

@@ -249,7 +249,6 @@ def test_a_file_that_is_not_there_or_a_folder_is_refused(tmp_path: Path):
 
 
 @given(st.binary(max_size=400))
-@settings(deadline=None)
 def test_any_bytes_are_tiers_or_an_input_error(raw: bytes):
     try:
         parse_textgrid(raw, name="x")
@@ -257,7 +256,7 @@ def test_any_bytes_are_tiers_or_an_input_error(raw: bytes):
         assert "\n" not in str(error)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=400, deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=400)
 @given(data=st.data())
 def test_any_damage_to_a_file_gives_a_schedule_or_an_input_error(tmp_path: Path, data: st.DataObject):
     raw = bytearray(data.draw(st.sampled_from([LONG.encode(), SHORT.encode(), LONG.encode("utf-16"), _binary(TIERS)])))
@@ -279,7 +278,7 @@ def test_any_damage_to_a_file_gives_a_schedule_or_an_input_error(tmp_path: Path,
 _LABELS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), max_size=6)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=100, deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=100)
 @given(lengths=st.lists(st.integers(1, 500), min_size=1, max_size=20), data=st.data())
 def test_any_labels_and_times_are_read_back_from_every_form(tmp_path: Path, lengths: list[int], data: st.DataObject):
     entries, start = [], 0

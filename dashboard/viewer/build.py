@@ -64,12 +64,17 @@ def build() -> None:
             except (OSError, subprocess.TimeoutExpired) as error:
                 raise NotBuiltError(f"npm {arguments[0]}: {error}") from error
             if done.returncode:
-                last = (done.stderr.strip() or done.stdout.strip() or "no message").splitlines()[-1]
-                raise NotBuiltError(f"npm {' '.join(arguments)} failed: {last}")
+                raise NotBuiltError(f"npm {' '.join(arguments)} failed: {_reason(done.stderr or done.stdout)}")
         for style in STYLES:
             shutil.copy2(work / "src" / style, work / "dist" / style)
         shutil.rmtree(DIST, ignore_errors=True)
         shutil.copytree(work / "dist", DIST)
+
+
+def _reason(output: str) -> str:
+    """The line of npm's *output* that says most: a cause that it names, not where it keeps its log."""
+    lines = [line.removeprefix("npm error ").strip() for line in output.splitlines() if line.strip()]
+    return next((line for line in lines if " " in line and not line.startswith(("code ", "errno ", "npm warn"))), "no message")
 
 
 if __name__ == "__main__":
