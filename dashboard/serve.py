@@ -9,17 +9,16 @@ import sys
 from contextlib import suppress
 from importlib import import_module
 from threading import Thread
-from time import sleep
 
 from streamlit.runtime.pages_manager import PagesManager
 from streamlit.web.cli import main
 
 # Blue of Okabe and Ito, as in the charts; red, Streamlit's own, looks like danger on a button that saves.
 THEME = {"theme.light.primaryColor": "#0072b2", "theme.dark.primaryColor": "#2a86c4"}
-FRONT_PAGE, OTHER_PAGES = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataframe_util")
-"""What takes long to import."""
-HEAD_START = 4.0
-"""Seconds that the first visitor's page gets the processor for itself."""
+SLOW_TO_IMPORT = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataframe_util")
+"""What the front page waits for, and what the others wait for."""
+UNUSED = "rfc3987_syntax"
+"""Where it is installed, jsonschema loads it for addresses that no chart has; its grammar takes two seconds to read."""
 
 
 def prepare() -> None:
@@ -28,16 +27,17 @@ def prepare() -> None:
     from lipdb.errors import LipdbError
     from lipdb.preview import preview
 
-    for name in FRONT_PAGE:
+    front, others = SLOW_TO_IMPORT
+    for name in front:
         import_module(name)
     with suppress(LipdbError), lipdb.open(os.environ.get("LIPDB_URL"), phonesets=os.environ.get("LIPDB_PHONESETS")) as db:
         preview([db.animate(db.say("Hello!"))], lambda _content, _media: "")
-    sleep(HEAD_START)
-    for name in OTHER_PAGES:
+    for name in others:
         import_module(name)
 
 
 if __name__ == "__main__":
     PagesManager.uses_pages_directory = False
+    sys.modules.setdefault(UNUSED, None)  # type: ignore[arg-type]
     Thread(target=prepare, daemon=True).start()
     sys.exit(main([*sys.argv[1:], *(f"--{name}={value}" for name, value in THEME.items())]))
