@@ -173,8 +173,10 @@ class Database:
         return [row["voice"], *(f"{row['voice']}+{timbre}" for timbre in TIMBRES if row["speech"] in ESPEAKING)]
 
     def voice(self, language: str, name: str = "") -> Voice:
-        """The voice that speaks *language*: its own, or the one called *name*."""
+        """The voice that speaks *language*: its own, or the one of `voices` called *name*. Raises `InputError` for others."""
         row = self.language(language)
+        if name:
+            _known(name, dict.fromkeys(self.voices(language)), f"voice of {language}")
         if (language, name) not in self._voices:
             makers = plugins.voices()
             maker = makers[_known(row["speech"], makers, "voice plug-in")]
@@ -185,8 +187,8 @@ class Database:
     def say(self, text: str, *, language: str = DEFAULT_LANGUAGE, voice: str = "", allow_unknown: bool = False) -> Line:
         """Speak *text* with the language's own *voice* or another: a line with schedule and sound, the same for the same text.
 
-        Raises `InputError` for text that the language can't read, and `UnknownSymbolError` for phones that no table
-        knows unless *allow_unknown* maps them by articulation.
+        Raises `InputError` for text that the language can't read or a voice that it lacks, and `UnknownSymbolError` for
+        phones that no table knows unless *allow_unknown* maps them by articulation.
         """
         from lipdb.speech.cache import spoken
 

@@ -42,21 +42,25 @@ def _face_options(command: F) -> F:
 
 @click.command(short_help="Speak a sentence and write the moving face.")
 @click.argument("text")
+@click.option(
+    "--voice", default="", metavar="NAME", help="Another voice than the language's own, such as en-us+f2; a wrong name lists all."
+)
 @_face_options
 @click.pass_obj
-def say(options: Options, /, text: str, language: str, allow_unknown: bool, **face: Any) -> None:
+def say(options: Options, /, text: str, voice: str, language: str, allow_unknown: bool, **face: Any) -> None:
     """Speak TEXT (`-` reads it from standard input) and write the moving face; without -o, show the schedule.
 
     \b
     Examples:
       lipdb say "Hello world" --character crab -o hello.mp4
       lipdb say "你好，世界" --language cmn -o hello.csv -o hello.glb
+      lipdb say "Hello" --voice en-us+f2 -o hello.wav
     """
     if text == "-":
         text = _standard_input()
     with options.open() as db:
         _check(db, **face)
-        line = db.say(text, language=language, allow_unknown=allow_unknown)
+        line = db.say(text, language=language, voice=voice, allow_unknown=allow_unknown)
         _deliver(db, line, **face)
 
 
