@@ -136,7 +136,7 @@ class EspeakVoice:
 
     def symbols_of(self, word: str) -> tuple[str, ...]:
         """The symbols of a *word* of `spelled`."""
-        return _symbols(word, self.symbols)
+        return _placed([symbol for written in word.split("_") if (symbol := _symbol(written, self.symbols))], self.symbols)
 
     def _checked(self, text: str) -> tuple[str, str, tuple[str, ...]]:
         """*text* cleaned, the same as it is spelt for espeak, and notes of what was left out."""
@@ -192,15 +192,23 @@ def _known(symbol: str, symbols: frozenset[str]) -> str:
     return next((form for form in (symbol, symbol.replace("ː", ""), undoubled(symbol)) if form in symbols), symbol)
 
 
-@lru_cache(maxsize=1 << 16)
-def _symbols(word: str, symbols: frozenset[str]) -> tuple[str, ...]:
-    """The symbols of one *word* of phonemizer's. Words come back again and again, so each is taken apart once."""
-    return _placed([_known(symbol, symbols) for symbol in map(unstressed, word.split("_")) if is_phone(symbol)], symbols)
+@lru_cache(maxsize=1 << 12)
+def _symbol(written: str, symbols: frozenset[str]) -> str:
+    """The symbol of one label of a word, empty for what is no phone. They come again and again, so each is looked at once."""
+    bare = unstressed(written)
+    return _known(bare, symbols) if is_phone(bare) else ""
 
 
 def _placed(word: list[str], symbols: frozenset[str]) -> tuple[str, ...]:
     """The labels of a *word*, those that have a form for their place (`lipdb.speech.context`) in that form."""
+    if not _has_places(symbols):
+        return tuple(word)
     return tuple(map(in_context, word, ["", *word], [*word[1:], ""], repeat(symbols)))
+
+
+@lru_cache(maxsize=1 << 6)
+def _has_places(symbols: frozenset[str]) -> bool:
+    return any("/" in symbol for symbol in symbols)
 
 
 def undoubled(symbol: str) -> str:
