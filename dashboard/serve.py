@@ -4,7 +4,6 @@ Streamlit takes a folder called pages/ for the pages of an app of its old kind, 
 new server by a link to a page would get that page alone, without what app.py puts around it: navigation, name, sign-in.
 """
 
-import os
 import sys
 from contextlib import suppress
 from importlib import import_module
@@ -23,14 +22,16 @@ UNUSED = "rfc3987_syntax"
 
 def prepare() -> None:
     """Do what the first page needs while the browser still opens: import, start the voice, build the face."""
-    import lipdb
-    from lipdb.errors import LipdbError
-    from lipdb.preview import preview
-
     front, others = SLOW_TO_IMPORT
     for name in front:
         import_module(name)
-    with suppress(LipdbError), lipdb.open(os.environ.get("LIPDB_URL"), phonesets=os.environ.get("LIPDB_PHONESETS")) as db:
+    from parts.session import shared
+
+    from lipdb.errors import LipdbError
+    from lipdb.preview import preview
+
+    with suppress(LipdbError):  # the pages say what is wrong
+        db = shared()
         preview([db.animate(db.say("Hello!"))], lambda _content, _media: "")
     for name in others:
         import_module(name)

@@ -18,13 +18,14 @@ from lipdb.errors import LipdbError, SchemaVersionError
 NAME = "visitor"
 
 
-@st.cache_resource
+@st.cache_resource(show_spinner=False)
 def _writable() -> Database:
     return lipdb.open(os.environ.get("LIPDB_URL"), phonesets=os.environ.get("LIPDB_PHONESETS"))
 
 
-@st.cache_resource
-def _view() -> Database:
+@st.cache_resource(show_spinner=False)
+def shared() -> Database:
+    """The one view of all visitors. Pages ask `database` for it, which looks at who asks."""
     return _writable().read_only()
 
 
@@ -36,7 +37,7 @@ def database() -> Database:
     """
     if not visitor().reader:
         raise LipdbError("sign in to see this; with another address, if yours is not let in")
-    return _view()
+    return shared()
 
 
 @dataclass(frozen=True, slots=True)
