@@ -22,10 +22,16 @@ def behind_pages(file: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[lipdb.
     """The database in *file*, on which pages work within the block; afterwards nothing of them is left in the process."""
     monkeypatch.syspath_prepend(str(DASHBOARD))
     monkeypatch.setenv("LIPDB_URL", str(file))
+    listen_on("localhost")
     forget()
     with lipdb.open(str(file)) as database:
         yield database
     forget()
+
+
+def listen_on(address: str) -> None:
+    """Where the pages think that they are served, as `lipdb dashboard --address` tells them."""
+    st.config.set_option("server.address", address)
 
 
 def forget() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from browser import PATIENCE, free_port, serving, settled
 from oidc_cases import provider, secrets
-from page_cases import DASHBOARD, behind_pages
+from page_cases import DASHBOARD, behind_pages, listen_on, page
 from streamlit.testing.v1 import AppTest
 
 import lipdb
@@ -176,6 +176,20 @@ def test_a_viewer_and_an_editor_sign_in_at_a_provider(tmp_path, chromium) -> Non
                 page.get_by_role("button", name="Sign out").click()
                 page.get_by_role("button", name="Sign in").wait_for()
             assert "anna@example.org" in app.lipdb("db", "history")
+
+
+def folders_offered() -> bool:
+    shown = page("languages", languages_view="Compare and merge")
+    assert not shown.exception
+    return "Another folder" in shown.selectbox(key="languages_left_kind").options
+
+
+def test_folders_of_this_machine_are_offered_to_its_own_people_only(db) -> None:
+    assert folders_offered()
+    listen_on("0.0.0.0")
+    assert not folders_offered()
+    listen_on("localhost")
+    assert folders_offered()
 
 
 def test_only_the_gate_opens_the_database() -> None:

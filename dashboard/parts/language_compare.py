@@ -11,7 +11,8 @@ import pandas as pd
 import streamlit as st
 from parts.language_work import told
 from parts.lines import state
-from parts.session import database, sign_in_configured, writable
+from parts.reach import only_from_here
+from parts.session import database, writable
 
 from lipdb.curated.tsv import Records
 from lipdb.curated.zipped import read_zip
@@ -70,7 +71,7 @@ def show_compare() -> None:
 def _version(column: st.delta_generator.DeltaGenerator, label: str, side: str, kinds: list[str]) -> Records | None:
     """One version: its records, None while there is none yet. Raises `LipdbError`."""
     help_text = "With it, rows that only one side changed settle by themselves, and those that both changed are conflicts."
-    if sign_in_configured():
+    if not only_from_here():
         kinds = [kind for kind in kinds if kind != FOLDER]  # Visitors from elsewhere do not look into this machine.
     kind = column.selectbox(label, kinds, key=f"languages_{side}_kind", persist_state="session", help=help_text if NONE in kinds else None)
     if kind == PAST:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from lipdb.cli.options import Options
+from lipdb.network import is_local
 
 PATIENCE = 3.0
 """Seconds that the server gets to end by itself."""
@@ -34,7 +35,7 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
         raise MissingToolError("the dashboard needs streamlit; install it with: pip install streamlit")
     if not _free(address, port):
         raise InputError(f"port {port} of {address} is taken or can't be used; name another one with --port")
-    if address not in ("localhost", "127.0.0.1", "::1"):
+    if not is_local(address):
         click.echo("lipdb: whoever reaches this address may edit, unless sign-in is configured (docs/dashboard.md)", err=True)
     with options.open():
         pass  # Makes or upgrades the database, and says here what is wrong with it.
