@@ -130,7 +130,8 @@ class Workers:
 # Never forks of this process: one with threads can wait for a lock that nobody holds. A server without threads forks workers
 # that have their imports already; where there is no such thing each is spawned.
 _METHOD = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-_IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "pandas"]  # pyarrow loads pandas with the first array.
+# pyarrow loads pandas with the first array.
+_IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "lipdb.speech.espeak", "phonemizer.backend.espeak.wrapper", "pandas"]
 
 
 def make_ready() -> None:

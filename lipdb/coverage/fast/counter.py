@@ -34,13 +34,16 @@ from lipdb.speech.voice import Voice
 VERSION = 1
 """Change it with anything that changes counts of the same labels."""
 SIZE = 1 << 24
+"""Bytes of a part: what fits into memory a few times as numbers, and is not felt when the counts of all parts are summed."""
 UNSPACED = ("Jpan", "Khmr", "Laoo", "Mymr", "Thai")
 """Scripts without spaces, but for Chinese, of which each character is taken as a word: what it is, is mostly how it is read."""
 FOLDS = 8
 _LOOKED_AT = 8  # Bytes at the start and the end of a line: enough to tell lines apart.
 _MIX = np.uint64(0xD6E8FEB86659FD93)
-# Bytes of a corpus, and the share of its lines that is counted both ways: some thousands of them.
-_SHARES = ((1 << 20, 8), (1 << 22, 32), (1 << 24, 128), (1 << 26, 512), (1 << 28, 1024), (0, 4096))
+# Bytes of a corpus; the share of its lines that is counted both ways, some thousands of them; and the bytes of a part, small where
+# there would be too few for all who count.
+_SHARES = ((1 << 20, 8, 1 << 18), (1 << 22, 32, 1 << 20), (1 << 24, 128, 1 << 21), (1 << 26, 512, 1 << 22), (1 << 28, 1024, 1 << 23))
+_LARGEST = 4096, SIZE
 _NOT_SAID = LEFT_OUT | np.uint32(mask_of((NO_WORDS,)))
 
 
@@ -58,8 +61,8 @@ def fast_counter(voice: Voice, sentences: Sequence[str], *, size: int = 0, folde
     if folder is not None:
         join_files(folder)
         keep_forms(voice, context, folder)
-    share = next(share for limit, share in _SHARES if (size and size <= limit) or not limit)
-    return FastCounter(voice, context, share, folder)
+    share, part = next(((share, part) for limit, share, part in _SHARES if 0 < size <= limit), _LARGEST)
+    return FastCounter(voice, context, share, folder, part)
 
 
 @dataclass(frozen=True)
@@ -67,13 +70,14 @@ class FastCounter:
     """Counts by words; see `lipdb.coverage.counts.Counter`.
 
     *context* is what is known of running speech. One line in *share* is counted both ways. *folder* is where the voice's
-    answers are kept.
+    answers are kept, *size* how many bytes of text are a part.
     """
 
     voice: Voice
     context: Context
     share: int
     folder: Path | None = None
+    size: int = SIZE
 
     @property
     def key(self) -> str:
@@ -90,11 +94,6 @@ class FastCounter:
     def notation(self) -> str:
         """That of the voice."""
         return self.voice.notation
-
-    @property
-    def size(self) -> int:
-        """What fits into memory a few times as numbers."""
-        return SIZE
 
     @property
     def threads(self) -> bool:

@@ -30,6 +30,12 @@ PLANES = 0x20000
 """Above it are more Chinese characters, up to `LAST_CHARACTER`, and then nothing that is read."""
 LAST_CHARACTER = 0x3FFFF
 SPACE, CONTINUATION, LEAD = 0x20, 0x80, 0xC0
+# By the category of a character in Unicode; of any other it is in a gap.
+_KINDS = {
+    "Nd": DIGIT,
+    **dict.fromkeys(("Lu", "Ll", "Lt", "Lm", "Lo", "Mn", "Mc", "Me", "Nl", "No", "Sc", "Sm", "Cf"), WORD),
+    **dict.fromkeys(("So", "Cc", "Co", "Cn", "Cs"), UNREAD),
+}
 
 _MIX = np.uint64(0x9E3779B97F4A7C15)
 _MASKS = np.array([(1 << 8 * n) - 1 for n in range(8)] + [2**64 - 1], np.uint64)
@@ -101,7 +107,7 @@ def cut(texts: pa.StringArray) -> Words:
 
 def is_character(word: str) -> bool:
     """Whether *word* is a Chinese character."""
-    return len(word) == 1 and (_kind_of(word) == CHARACTER or PLANES <= ord(word) <= LAST_CHARACTER)
+    return len(word) == 1 and (_kind_of_codes()[min(ord(word), PLANES)] == CHARACTER or PLANES <= ord(word) <= LAST_CHARACTER)
 
 
 def spans_of(texts: pa.StringArray) -> tuple[bytes, Places, Places]:
@@ -197,25 +203,19 @@ def _distinct(places: Places) -> Places:
 
 @cache
 def _ascii_kinds() -> bytes:
-    return bytes(_kind_of(chr(code)) if code < CONTINUATION else GAP for code in range(256))
+    return bytes(_kind_of_codes()[:CONTINUATION]) + bytes(256 - CONTINUATION)
 
 
 @cache
 def _kind_of_codes() -> Bytes:
-    return np.array([*(_kind_of(chr(code)) for code in range(PLANES)), GAP], np.uint8)
-
-
-def _kind_of(character: str) -> int:
-    if character in JOINERS:
-        return JOINERS[character]
-    category = unicodedata.category(character)
-    if any(ord(character) in styles for styles in STYLES):
-        return GAP
-    if category[0] in "LN" and any(ord(character) in characters for characters in CHARACTERS):
-        return CHARACTER
-    if category == "Nd":
-        return DIGIT
-    if category in ("So", "Cc", "Co", "Cn", "Cs") and not character.isspace():
-        return UNREAD
-    spoken = category[0] in "LMN" or category in ("Sc", "Sm", "Cf") or character in SIGNS
-    return WORD if spoken else GAP
+    """The kind of every character below `PLANES`, by its code, and of one above."""
+    kinds = np.frombuffer(bytearray(_KINDS.get(unicodedata.category(chr(code)), GAP) for code in range(PLANES + 1)), np.uint8)
+    for codes in CHARACTERS:
+        found = kinds[codes.start : codes.stop]
+        found[found == WORD] = CHARACTER
+    for styles in STYLES:
+        kinds[styles.start : styles.stop] = GAP
+    kinds[[code for code in range(CONTINUATION << 1) if chr(code).isspace()] + [PLANES]] = GAP
+    kinds[[ord(sign) for sign in SIGNS]] = WORD
+    kinds[[ord(joiner) for joiner in JOINERS]] = list(JOINERS.values())
+    return kinds
