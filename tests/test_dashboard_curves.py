@@ -8,6 +8,7 @@ import pytest
 from browser import PATIENCE, settled
 
 import lipdb
+from lipdb.curves.keys import parse_keys
 
 
 def open_curves(app, page, *, name: str, pair: str = "l-ow", character: str = "robin", kind: str = "common") -> None:
@@ -159,6 +160,73 @@ def test_the_loop_plays_the_edited_pair(app, curves) -> None:
 
 def rounding(loop) -> float:
     return loop.evaluate("stage => stage.lipdb.state.poses.W")
+
+
+def shown_pair(page) -> str:
+    """The pair whose curves are edited, as the address names it."""
+    return re.search("pair=([^&]*)", page.url)[1]
+
+
+def row_keys(app, pair: str, pose: str) -> list[tuple[float, float]]:
+    return list(parse_keys(stored(app, *pair.split("-"), pose).strip("-")))
+
+
+def test_a_click_into_the_matrix_of_all_pairs_opens_that_pair_and_the_way_back_leads_to_the_one_before(app, curves) -> None:
+    open_curves(app, curves, name="anna")
+    curves.get_by_role("button", name="All pairs").click()
+    dialog = curves.get_by_test_id("stDialog")
+    matrix = dialog.get_by_test_id("stVegaLiteChart").locator("canvas, svg").first
+    matrix.wait_for()
+    for turn in range(40):  # a drawing that is just being made hears no click
+        box = matrix.evaluate_all("all => all.map(one => one.getBoundingClientRect().toJSON())[0]")
+        if not box:
+            break
+        # Some pixels further each time, for there are gaps between cells.
+        curves.mouse.click(box["x"] + box["width"] * 0.4 + turn % 5, box["y"] + box["height"] * 0.4 + turn % 5)
+        curves.wait_for_timeout(500)
+    until(curves, lambda: shown_pair(curves) != "l-ow")
+    pair = shown_pair(curves)
+    until(curves, lambda: keys_of(curves, "open") == row_keys(app, pair, "open"))
+    settled(curves)
+    curves.go_back()
+    until(curves, lambda: shown_pair(curves) == "l-ow")
+    until(curves, lambda: keys_of(curves, "open") == row_keys(app, "l-ow", "open"))
+    curves.go_forward()
+    until(curves, lambda: shown_pair(curves) == pair)
+    until(curves, lambda: keys_of(curves, "open") == row_keys(app, pair, "open"))
+
+
+def test_curves_are_copied_from_another_pair_as_a_step_that_can_be_undone(app, curves) -> None:
+    open_curves(app, curves, name="anna", pair="l-eh")
+    before = keys_of(curves, "wide")
+    assert before != row_keys(app, "l-ih", "wide")
+    curves.get_by_role("button", name="Copy from").click()
+    field = curves.get_by_role("combobox", name="Pair", exact=True)
+    field.fill("l-ih")
+    curves.get_by_role("option", name="l-ih", exact=True).click()
+    settled(curves)
+    curves.get_by_role("button", name="Copy", exact=True).click()
+    until(curves, lambda: keys_of(curves, "wide") == row_keys(app, "l-ih", "wide"))
+    curves.keyboard.press("Escape")
+    curves.get_by_text("Not saved yet:").wait_for()
+    settled(curves)
+    curves.keyboard.press("Control+z")
+    until(curves, lambda: keys_of(curves, "wide") == before)
+    curves.get_by_text("Not saved yet:").wait_for(state="hidden")
+
+
+def test_a_pair_that_is_right_is_accepted_and_that_is_taken_back(app, curves) -> None:
+    open_curves(app, curves, name="anna", pair="l-eh")
+    before = stored(app, "l", "eh", "open")
+    curves.get_by_role("button", name="Accept as it is").click()
+    curves.get_by_text("Saved l-eh, accepted as it is to common").wait_for()
+    with lipdb.open(str(app.database)) as db:
+        assert not db.uses({("l", "eh"): 1.0}, language="en", character="robin")[0].gap
+    assert stored(app, "l", "eh", "open") == before
+    curves.get_by_role("button", name="Undo save").click()
+    curves.get_by_text(re.compile(r"Revision \d+ takes revision \d+ back")).wait_for()
+    with lipdb.open(str(app.database)) as db:
+        assert db.uses({("l", "eh"): 1.0}, language="en", character="robin")[0].gap
 
 
 def test_two_people_and_one_curve(app, chromium, curves) -> None:
