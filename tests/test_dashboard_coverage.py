@@ -63,7 +63,7 @@ def opened(page, pair: str) -> None:
 @pytest.mark.parametrize("by_browser", [False, True])
 def test_a_click_into_the_matrix_opens_the_pair_and_the_page_comes_back_as_it_was(coverage, by_browser) -> None:
     coverage.get_by_test_id("stButtonGroup").nth(1).get_by_text("Origin", exact=True).click()
-    coverage.get_by_text("are pale").wait_for()
+    coverage.get_by_text("are faint").wait_for()
     drawn = coverage.get_by_test_id("stVegaLiteChart").locator("canvas, svg").first
     pairs = []
     for y in (0.5, 0.7):
@@ -71,7 +71,7 @@ def test_a_click_into_the_matrix_opens_the_pair_and_the_page_comes_back_as_it_wa
         assert re.fullmatch("[a-z_]+-[a-z_]+", pairs[-1])
         opened(coverage, pairs[-1])
         back(coverage, by_browser=by_browser)
-        coverage.get_by_text("are pale").wait_for()
+        coverage.get_by_text("are faint").wait_for()
     assert pairs[0] != pairs[1]
 
 

@@ -117,7 +117,7 @@ def show_matrix(now: Chosen) -> None:
     order = sorted({use.left for use in now.uses}, key=lambda phone: (phone != SILENCE, kinds.get(phone) != "vowel", phone))
     chart = heat_map(table_of(now.uses, now.frequency, now.by_language), colouring, order)
     event = left.altair_chart(chart, key="coverage_matrix", on_select="rerun", selection_mode="pair", width="stretch")
-    never = "empty" if colouring == OFTEN else "pale"
+    never = "empty" if colouring == OFTEN else "faint"
     left.caption(f"Click a pair to open it in Curves. Vowels come first. Pairs that the chosen text does not have are {never}.")
     for cell in event.selection.get("pair") or []:
         now.go(cell["left"], cell["right"])

@@ -7,7 +7,7 @@ from pathlib import Path
 import streamlit as st
 from parts.downloads import download
 from parts.instant import explain
-from parts.lines import LARGEST, key_of, played, recorded, spoken
+from parts.lines import LARGEST, key_of, played, recorded, spoken, staged
 from parts.session import database, shown_errors
 from parts.stage import stage
 
@@ -103,7 +103,7 @@ def look_inside(line: Line, character: str) -> None:
     # Imported here: Altair takes seconds to import, and the first face should not wait for it.
     from parts.stages import STAGE_COLOURS, stages_chart
 
-    made = database().stages(line, character=character)
+    made = staged(line, character)
     left, right = st.columns([1, 3])
     poses = list(made.poses)
     pose = left.selectbox("Pose", ["all", *poses], index=1 + poses.index("open") if "open" in poses else 0, key="say_pose")

@@ -11,6 +11,7 @@ import streamlit as st
 from parts.session import database
 
 from lipdb import Database, Line
+from lipdb.engine import Stages
 from lipdb.errors import InputError
 from lipdb.performance import Performance
 
@@ -50,6 +51,16 @@ def _played(key: str, revision: int, _line: Line, character: str, past: int | No
 def played(line: Line, character: str, *, past: int | None = None) -> Performance:
     """*line* on *character*, as the data are now or were at revision *past*. Raises `LipdbError`."""
     return _played(key_of(line), database().store.revision, line, character, past)
+
+
+@st.cache_resource(max_entries=16, ttl=3600, show_spinner=False)
+def _staged(key: str, revision: int, _line: Line, character: str) -> Stages:  # noqa: ARG001
+    return database().stages(_line, character=character)
+
+
+def staged(line: Line, character: str) -> Stages:
+    """What each stage of the engine makes of *line* on *character*. Raises `LipdbError`."""
+    return _staged(key_of(line), database().store.revision, line, character)
 
 
 def key_of(line: Line) -> str:
