@@ -1,8 +1,9 @@
-"""Write files whole or not at all."""
+"""Write files and folders whole or not at all."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -37,3 +38,26 @@ def whole_file(path: Path) -> Iterator[Path]:
         raise OutputError(f"{path}: can't be written ({error.strerror or error}); free some space or choose another folder") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+@contextmanager
+def whole_folder(path: Path, *, otherwise: str) -> Iterator[Path]:
+    """A new folder of the same name near *path*, that takes its place when the block ends without an error.
+
+    The folder above *path* is made where it is missing. Raises `OutputError` when it can't be written; *otherwise* says what
+    a person can do then.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        near = Path(tempfile.mkdtemp(dir=path.parent, prefix=".lipdb-"))
+    except OSError as error:
+        raise OutputError(f"{path.parent}: can't be written ({error.strerror}); {otherwise}") from error
+    temporary = near / path.name
+    try:
+        temporary.mkdir()
+        yield temporary
+        temporary.rename(path)
+    except OSError as error:
+        raise OutputError(f"{path}: can't be written ({error.strerror or error})") from error
+    finally:
+        shutil.rmtree(near, ignore_errors=True)

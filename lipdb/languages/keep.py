@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import shutil
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,7 +14,7 @@ from lipdb.curated.folder import read_folder, write_folder
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Key, Records, Row, format_rows
 from lipdb.errors import ConflictError, InputError, OutputError, PhonesetError
-from lipdb.files import whole_file
+from lipdb.files import whole_file, whole_folder
 from lipdb.languages.compare import Place, applied, new_findings
 from lipdb.languages.draft import with_rows
 
@@ -53,19 +52,10 @@ def save_text(code: str, own: Tables, folder: Path) -> list[Path]:
     if wrong:
         raise PhonesetError(f"{wrong[0].file}: {wrong[0].message}; mend it first")
     tables = {path: rows for path, rows in own.items() if path.startswith(f"{code}/")}
-    try:
-        temporary = Path(tempfile.mkdtemp(dir=folder, prefix=".lipdb-"))
-    except OSError as error:
-        raise OutputError(f"{folder}: can't be written ({error.strerror}); choose another workspace with --phonesets") from error
-    try:
-        write_folder(tables, temporary)
-        (temporary / code).rename(folder / code)
-        if COMMON in own:
-            _write_common(merged[COMMON], folder, undo=folder / code)
-    except OSError as error:
-        raise OutputError(f"{folder / code}: can't be written ({error.strerror})") from error
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+    with whole_folder(folder / code, otherwise="choose another workspace with --phonesets") as temporary:
+        write_folder(tables, temporary.parent)
+    if COMMON in own:
+        _write_common(merged[COMMON], folder, undo=folder / code)
     return [folder / path for path in sorted(own)]
 
 

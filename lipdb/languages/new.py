@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +14,8 @@ from lipdb.curated.check import check
 from lipdb.curated.folder import write_folder
 from lipdb.curated.schema import TIME_FORMAT
 from lipdb.curated.tsv import Records, Row
-from lipdb.errors import InputError, OutputError, PhonesetError
+from lipdb.errors import InputError, PhonesetError
+from lipdb.files import whole_folder
 from lipdb.languages.folder import require_code
 from lipdb.languages.propose import NOTATION, Phone, Proposed, alias_rows, phone_rows, propose_phones, table
 from lipdb.languages.sample import symbols_of
@@ -163,22 +162,9 @@ def _numbers_and_letters(letters: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _write(own: Records, folder: Path, code: str, records: Records) -> None:
-    """Write the tables into a temporary folder and move it into place, so that there is all of it or nothing.
-
-    Raises `PhonesetError` when the rows mention what *records* lack.
-    """
+    """Write the tables, all of them or nothing. Raises `PhonesetError` when the rows mention what *records* lack."""
     wrong = [one for one in check({**records, **own}) if one.file in own]
     if wrong:
         raise PhonesetError(f"the curated data lack what {code} needs: {wrong[0]}")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(dir=folder, prefix=".lipdb-"))
-    except OSError as error:
-        raise OutputError(f"{folder}: can't be written ({error.strerror}); choose another folder with -o") from error
-    try:
-        write_folder(own, temporary)
-        (temporary / code).rename(folder / code)
-    except OSError as error:
-        raise OutputError(f"{folder / code}: can't be written ({error.strerror})") from error
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+    with whole_folder(folder / code, otherwise="choose another folder with -o") as temporary:
+        write_folder(own, temporary.parent)

@@ -78,13 +78,6 @@ def ellipsoid(points: Floats, centre: Point, radii: Point) -> Floats:
     return np.asarray(k0 * (k0 - 1) / np.maximum(k1, 1e-9))
 
 
-def capsule(points: Floats, start: Point, end: Point, radius_start: float, radius_end: float) -> Floats:
-    """Distance to a rod with round ends of two radii (to first order)."""
-    a, along = np.asarray(start, float), np.asarray(end, float) - np.asarray(start, float)
-    t = np.clip(((points - a) @ along) / (along @ along), 0, 1)
-    return np.asarray(np.linalg.norm(points - (a + t[..., None] * along), axis=-1) - (radius_start + (radius_end - radius_start) * t))
-
-
 def raycast(distance: Distance, origin: Point, directions: Floats, *, begin: float = 1.8, steps: int = 26) -> Floats:
     """How far along unit *directions* from *origin* the body's surface lies.
 
