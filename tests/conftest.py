@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ from hypothesis import settings
 
 import lipdb
 
-pytest_plugins = ["browser"]
+pytest_plugins = ["browser", "store_cases"]
 
 # How long an example takes depends on the machine, and says nothing about lipdb.
 settings.register_profile("lipdb", deadline=None)
@@ -40,7 +41,16 @@ def own_main() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def db(own_places: Path) -> Iterator[lipdb.Database]:
+def as_shipped(own_places: Path) -> Path:
+    """The file of a database as it ships, which nobody opens: to be copied."""
+    file = own_places / "as shipped" / "lipdb.db"
+    file.parent.mkdir()
+    lipdb.open(file).close()
+    return file
+
+
+@pytest.fixture(scope="session")
+def db(own_places: Path, as_shipped: Path) -> Iterator[lipdb.Database]:
     """A database with the shipped data. Tests that edit make one of their own."""
-    with lipdb.open(own_places / "shipped.db") as database:
+    with lipdb.open(shutil.copy(as_shipped, own_places / "shipped.db")) as database:
         yield database

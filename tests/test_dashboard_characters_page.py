@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 
 import pytest
 from glb_cases import Builder
@@ -17,8 +18,8 @@ LETTERS = [(f"{letter}.svg", SVG) for letter in "ABCDEFGHX"]
 
 
 @pytest.fixture
-def db(tmp_path, monkeypatch):
-    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
+def db(as_shipped, tmp_path, monkeypatch):
+    with behind_pages(shutil.copy(as_shipped, tmp_path), monkeypatch) as db:
         yield db
 
 

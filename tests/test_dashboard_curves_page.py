@@ -10,24 +10,15 @@ import pytest
 from page_cases import DASHBOARD, behind_pages
 from streamlit.testing.v1 import AppTest
 
-import lipdb
 from lipdb.curves.keys import format_keys
 
 PEAK = [[0.0, 0.0], [0.5, 0.9], [1.0, 0.0]]
 
 
-@pytest.fixture(scope="module")
-def template(tmp_path_factory):
-    """A database as it ships, to be copied."""
-    file = tmp_path_factory.mktemp("template") / "lipdb.db"
-    lipdb.open(str(file)).close()
-    return file
-
-
 @pytest.fixture
-def db(template, tmp_path, monkeypatch):
+def db(as_shipped, tmp_path, monkeypatch):
     """A database of its own that the page works on."""
-    with behind_pages(shutil.copy(template, tmp_path), monkeypatch) as database:
+    with behind_pages(shutil.copy(as_shipped, tmp_path), monkeypatch) as database:
         yield database
 
 

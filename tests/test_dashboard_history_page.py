@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 
 import pytest
 from page_cases import behind_pages, page
@@ -12,8 +13,8 @@ TABLE = "curves/facefx.tsv"
 
 
 @pytest.fixture
-def db(tmp_path, monkeypatch):
-    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
+def db(as_shipped, tmp_path, monkeypatch):
+    with behind_pages(shutil.copy(as_shipped, tmp_path), monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:  # 2
             edit.put(TABLE, CURVE)
         with db.edit(author="bob", note="Robin's own low") as edit:  # 3

@@ -6,21 +6,11 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from store_cases import CURVES, KEY, TEXT
 
 from lipdb.curated.folder import read_folder, write_folder
 from lipdb.errors import ConflictError, InputError, PhonesetError
 from lipdb.store import Loaded, Store
-
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
-CURVES = "curves/facefx.tsv"
-KEY = ("aa", "bmp", "PBM")
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store.open(tmp_path / "a.db", TEXT)
-    yield store
-    store.close()
 
 
 def put(store: Store, pose: str, keys: str, *, author: str) -> None:

@@ -1,23 +1,12 @@
 """Every edit is one transaction with author, time and revision, and never loses anybody's work."""
 
 import sqlite3
-from pathlib import Path
 
 import pytest
+from store_cases import CURVES, KEY, TEXT
 
 from lipdb.errors import ConflictError, InputError, PhonesetError
 from lipdb.store import Store
-
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
-CURVES = "curves/facefx.tsv"
-KEY = ("aa", "bmp", "PBM")
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store.open(tmp_path / "a.db", TEXT)
-    yield store
-    store.close()
 
 
 def curve(**cells: str) -> dict[str, str]:

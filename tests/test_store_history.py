@@ -7,20 +7,10 @@ import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
+from store_cases import CURVES, KEY, TEXT
 
 from lipdb.errors import ConflictError, InputError
 from lipdb.store import Store
-
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
-CURVES = "curves/facefx.tsv"
-KEY = ("aa", "bmp", "PBM")
-
-
-@pytest.fixture
-def store(tmp_path):
-    store = Store.open(tmp_path / "a.db", TEXT)
-    yield store
-    store.close()
 
 
 def put(store: Store, keys: str, *, author: str = "anna", pose: str = "PBM") -> int | None:
