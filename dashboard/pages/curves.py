@@ -125,7 +125,7 @@ def ask_save(now: Held) -> None:
     if not visitor().editor:
         return
     place = now.draft.place
-    copying, saving = st.columns([2, 7], vertical_alignment="bottom")
+    copying, saving = st.columns([3, 8], vertical_alignment="bottom")
     with copying:
         copy_from(now)
     with saving.form("curves_save", border=False):
@@ -135,9 +135,7 @@ def ask_save(now: Held) -> None:
         made = ", ".join(now.unfinished)
         told = f"Nobody has drawn {made}. You have looked, and it is right: it becomes authored by you, and the pair leaves the to-do list."
         done = "Every curve that moves is drawn, fitted or accepted."
-        accepted = other.form_submit_button(
-            "Accept as it is", icon=":material/done_all:", disabled=not made, help=told if made else done, width="stretch"
-        )
+        accepted = other.form_submit_button("Accept as it is", disabled=not made, help=told if made else done, width="stretch")
     if now.changed:
         left, right = st.columns([3, 1], vertical_alignment="center")
         left.caption(f":material/edit: Not saved yet: {', '.join(now.changed)}.{overtaken(now)}")
@@ -161,6 +159,8 @@ def overtaken(now: Held) -> str:
 def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None:
     """Go on from what is saved now."""
     rebase(place, keep=choice == "edit")
+    if choice == "chosen":
+        what = f"{place.pair}, row by row as chosen,"
     if choice != "edit":
         done = f"Saved {what} to {place.layer} as revision {revision}." if revision else "Theirs stays; nothing of yours had to be saved."
         tell(place, done, revision)

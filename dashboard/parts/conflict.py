@@ -113,9 +113,10 @@ def _both(versions: Versions, seen: int) -> None:
     """One row as both sides have it: curves as curves, other rows as a table."""
     name = " ".join(versions.key)
     if "/curves/" in f"/{versions.path}":
+        st.write(f"**{name}**")
         before = state(seen).records.get(versions.path, {}).get(versions.key)
         drawn = {"mine": versions.mine, "theirs": versions.theirs, "before": before}
-        st.altair_chart(curves_chart(name, {who: _keys(row) for who, row in drawn.items()}), width="stretch")
+        st.altair_chart(curves_chart({who: _keys(row) for who, row in drawn.items()}), width="stretch")
         absent = [who for who, row in (("yours", versions.mine), ("theirs", versions.theirs)) if row is None]
         if absent:
             st.caption(f"{' and '.join(absent)} {ABSENT}")

@@ -31,7 +31,7 @@ def show_saved(place: Hashable, *, key: str) -> None:
     last: Saved | None = st.session_state.get(LAST, {}).get(place)
     if last is None:
         return
-    said, button = st.columns([4, 1], vertical_alignment="center")
+    said, button = st.columns([3, 1], vertical_alignment="center")
     said.success(last.text, icon=":material/check:")
     if last.revision is None or not visitor().editor:
         return

@@ -11,7 +11,7 @@ VERSION_COLOURS = {"mine": "#d55e00", "theirs": "#0072b2", "before": "#999999"}
 VERSION_DASHES = {"mine": [1, 0], "theirs": [6, 3], "before": [2, 2]}
 
 
-def curves_chart(title: str, versions: Mapping[str, Sequence[tuple[float, float]] | None]) -> alt.Chart:
+def curves_chart(versions: Mapping[str, Sequence[tuple[float, float]] | None]) -> alt.Chart:
     """The versions of one curve, ``mine``, ``theirs`` and ``before``, over normalised time; None is not drawn."""
     drawn = {who: keys or [(0.0, 0.0), (1.0, 0.0)] for who, keys in versions.items() if keys is not None}
     points = [
@@ -19,13 +19,15 @@ def curves_chart(title: str, versions: Mapping[str, Sequence[tuple[float, float]
     ]
     domain = list(VERSION_COLOURS)
     return (
-        alt.Chart(pd.DataFrame(points, columns=["time", "weight", "version", "order"]), title=title, height=130)
+        alt.Chart(pd.DataFrame(points, columns=["time", "weight", "version", "order"]), height=200)
         .mark_line(point=True)
         .encode(
-            x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1])),
+            x=alt.X("time:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
             y=alt.Y("weight:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
             color=alt.Color(
-                "version:N", scale=alt.Scale(domain=domain, range=list(VERSION_COLOURS.values())), legend=alt.Legend(title=None)
+                "version:N",
+                scale=alt.Scale(domain=domain, range=list(VERSION_COLOURS.values())),
+                legend=alt.Legend(title=None, orient="top", symbolType="stroke"),
             ),
             strokeDash=alt.StrokeDash("version:N", scale=alt.Scale(domain=domain, range=list(VERSION_DASHES.values())), legend=None),
             order="order:O",
