@@ -168,6 +168,7 @@ def test_two_faces_share_the_clock_and_have_lanes_of_their_own(front) -> None:
     robin, crab = until(front, "stage.lipdb.state.faces")
     assert robin["shapes"]["open"] > 0.1
     assert set(robin["shapes"]).isdisjoint(crab["shapes"])
+    assert front.get_by_role("button", name="Look from: side").is_visible()
     front.get_by_label("Beside it", exact=True).click()
     front.get_by_role("option", name="nobody").click()
     until(front, "stage.lipdb.state.faces.length === 1")
@@ -182,6 +183,7 @@ def test_another_sentence_is_heard_soon_and_a_flat_mouth_shows_pictures(front) -
     front.get_by_role("option", name="flat").click()
     until(front, "stage.lipdb.state.faces[0]?.shown")
     assert stage_state(front)["faces"][0]["shown"] in set("ABCDEFGHX")
+    assert not front.get_by_role("button", name="Look from: side").is_visible()
 
 
 def test_nonsense_is_answered_with_what_to_do(front) -> None:

@@ -85,8 +85,19 @@ def test_the_stages_come_when_they_are_asked_for(page) -> None:
     page.run()
     assert messages(page) == []
     assert len(page.get("vega_lite_chart")) == 1
+
+
+def test_the_stages_of_all_poses_stand_in_one_plot_that_keeps_to_the_width_of_the_page(page) -> None:
+    page.session_state["say_tab"] = "Stages of the engine"
+    page.run()
     page.selectbox(key="say_pose").set_value("all").run()
     assert messages(page) == []
+    chart = json.loads(page.get("vega_lite_chart")[0].proto.spec)
+    *_, lines = chart["layer"]
+    poses = page.selectbox(key="say_pose").options[1:]
+    floors = lines["encoding"]["y"]["axis"]
+    assert len(floors["values"]) == len(poses)
+    assert all(f"'{pose}'" in floors["labelExpr"] for pose in poses)
 
 
 def test_a_mesh_format_of_a_flat_mouth_is_answered_in_a_line(page) -> None:

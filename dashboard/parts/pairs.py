@@ -96,7 +96,7 @@ def ask() -> Place:
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
     phones = sorted((key[0] for key in db.records["common.tsv"]), key=lambda phone: (phone == SILENCE, phone))
     _keep_known(chosen, languages, characters, phones)
-    columns = st.columns([3, 2, 2, 2, 2, 2], vertical_alignment="bottom")
+    columns = st.columns([5, 3, 3, 4, 4, 5], vertical_alignment="bottom")
     for column, name, label, options, shown in (
         (columns[1], "left", "From", phones, {}),
         (columns[2], "right", "To", phones, {}),
