@@ -141,7 +141,8 @@ def take(browser: Any, dashboard: Dashboard, name: str) -> None:
     drawn(page)
     picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
     TO.mkdir(parents=True, exist_ok=True)
-    picture.quantize(256, kmeans=2).save(TO / f"{name}.png", optimize=True)
+    # Maximum coverage keeps the colours of thin lines, which are few pixels; the median cut would give two lanes one colour.
+    picture.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=2).save(TO / f"{name}.png", optimize=True)
     context.close()
     print(f"{name}: {(TO / f'{name}.png').stat().st_size // 1000} KB")
 
