@@ -137,10 +137,15 @@ _IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "lipdb.speech
 def make_ready() -> None:
     """Begin to import what processes need, beside whatever this process does next; a second time does nothing."""
     if _METHOD == "forkserver":
-        from multiprocessing import forkserver
+        from multiprocessing import forkserver, resource_tracker
 
         multiprocessing.get_context(_METHOD).set_forkserver_preload(_IMPORTED)
-        forkserver.ensure_running()
+        resource_tracker.ensure_running()  # Else the server would start it, and let Ctrl-C through again.
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is this process's business, not its imports'.
+        try:
+            forkserver.ensure_running()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _nothing(task: object) -> None:
