@@ -28,6 +28,13 @@ def test_help_shows_an_example_that_uses_the_command(path: tuple[str, ...]) -> N
     assert any(line.strip().startswith("lipdb ") and f" {' '.join(path)}" in line for line in example)
 
 
+def test_whoever_edits_is_found_out_in_one_way() -> None:
+    helped = [CliRunner().invoke(cli, [*path, "--help"]).output for path in leaves(cli)]
+    told = {" ".join(text.split("--author")[1].split("\n  -")[0].split()) for text in helped if "--author" in text}
+    told.remove("TEXT Who stands in the rows that change. [default: lipdb]")  # of the generated curves
+    assert told == {"TEXT Who stands in the history. [default: (you)]"}
+
+
 @pytest.mark.parametrize("path", leaves(cli), ids=" ".join)
 def test_the_documentation_names_the_command(path: tuple[str, ...]) -> None:
     rows = [line for line in (ROOT / "docs" / "cli.md").read_text("utf-8").splitlines() if line.startswith(f"| `lipdb {path[0]}")]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Options, json_option, print_json, print_listing
+from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing
 
 
 @click.group(short_help="List, show and add characters.")
@@ -53,9 +53,7 @@ def show_character(options: Options, name: str, as_json: bool) -> None:
 @click.argument("path", type=click.Path(path_type=Path))
 @click.option("--name", required=True, help="What to call it: small letters, digits and _.")
 @click.option("--title", default="", help="A line that says who it is.")
-@click.option(
-    "--author", envvar=["LIPDB_AUTHOR", "USER"], default="unknown", show_default="your user name", help="Who adds it, for the history."
-)
+@author_option
 @json_option
 @click.pass_obj
 def add_character(options: Options, path: Path, name: str, title: str, author: str, as_json: bool) -> None:
