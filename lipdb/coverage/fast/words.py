@@ -132,7 +132,7 @@ def keys_of(raw: bytes, starts: Places, ends: Places) -> Keys:
     """
     eights = np.ndarray((len(raw) + 1,), "<u8", raw + _PADDING, strides=(1,))
     lengths = ends - starts
-    keys = (eights.take(starts) & _MASKS.take(np.minimum(lengths, 8))) * _MIX
+    keys = (eights[starts] & _MASKS.take(np.minimum(lengths, 8))) * _MIX  # take would copy all of eights, eight times the text
     rest = np.flatnonzero(lengths > 8)
     offset = 8
     while rest.size:
