@@ -8,7 +8,7 @@ from contextvars import ContextVar
 from typing import TypeVar
 
 T = TypeVar("T")
-Report = Callable[[str, int, int], None]
+Report = Callable[[str, int, int], object]
 """Called with what is done, how many steps are done, and how many there are."""
 
 _report: ContextVar[Report | None] = ContextVar("report", default=None)

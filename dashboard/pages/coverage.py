@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import pandas as pd
 import streamlit as st
@@ -135,7 +136,7 @@ def show_sums(now: Chosen) -> None:
         "Covered by hand", f"{outlook(now.needed).covered:.1f} %", help="The part of running text whose curves are authored or fitted."
     )
     for what, rows in by_curve(now.needed).items():
-        config = {"percent": st.column_config.NumberColumn("% of text", format="%.1f"), what: what.capitalize()}
+        config: dict[str, Any] = {"percent": st.column_config.NumberColumn("% of text", format="%.1f"), what: what.capitalize()}
         st.dataframe(pd.DataFrame(rows), hide_index=True, column_config=config, key=f"coverage_by_{what}")
 
 

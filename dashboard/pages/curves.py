@@ -37,7 +37,7 @@ def ask_layer(place: Place) -> Place:
         "Edit and save for", list(names), required=True, format_func=names.__getitem__, key="curves_kind",
         on_change=pairs.picked, args=("kind",), label_visibility="collapsed",
     )  # fmt: skip
-    place = replace(place, kind=kind)
+    place = replace(place, kind=kind or place.kind)
     everyone = f"every character of pose set {place.pose_set}"
     whom = {
         COMMON: f"every language, on {everyone}",

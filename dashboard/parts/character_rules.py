@@ -88,7 +88,7 @@ def _rows(records: Records, pose_set: str, poses: Cells, thresholds: Cells, whol
     """What saving the tables, which were read from *records*, writes. Raises `PhonesetError`."""
     path, constraints = f"poses/{pose_set}.tsv", f"constraints/{pose_set}.tsv"
     known, bounds = records[path], records.get(constraints, {})
-    new_poses = {}
+    new_poses: dict[tuple[str, ...], Row] = {}
     for cells in poses:
         row = known[cells["pose"],]
         must = "yes" if cells["must_reach"] else "no"

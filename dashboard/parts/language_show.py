@@ -12,6 +12,7 @@ from parts.language_review import common_title
 from parts.language_work import hear, told
 from parts.session import Edited, database, visitor
 
+from lipdb import Database
 from lipdb.curated.tsv import Row
 from lipdb.errors import InputError
 from lipdb.schedule import SILENCE
@@ -112,7 +113,7 @@ def _edit_phone(beside: st.delta_generator.DeltaGenerator, code: str, row: Row) 
     hear(trial, f"{db.store.revision} {edited}", example, code, key="languages_hear")
 
 
-def _tried(code: str, row: Row) -> object:
+def _tried(code: str, row: Row) -> Database:
     from lipdb.languages.trial import Trial
 
     return Trial(database(), {f"{code}/phones.tsv": {(row["phone"],): row}})

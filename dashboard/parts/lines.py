@@ -67,7 +67,7 @@ def key_of(line: Line) -> str:
     """Equal for equal lines."""
     digest = hashlib.sha256(repr(line.to_json()).encode())
     if line.sound:
-        digest.update(line.sound.samples)
+        digest.update(line.sound.samples.tobytes())
     return digest.hexdigest()
 
 

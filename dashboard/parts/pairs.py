@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import altair as alt
@@ -10,6 +12,7 @@ import pandas as pd
 import streamlit as st
 from parts.lines import spoken
 from parts.session import database, shown_errors
+from streamlit.delta_generator import DeltaGenerator
 
 from lipdb.curves.draft import KINDS, Place
 from lipdb.curves.rehearse import usual_lengths
@@ -97,16 +100,15 @@ def ask() -> Place:
     phones = sorted((key[0] for key in db.records["common.tsv"]), key=lambda phone: (phone == SILENCE, phone))
     _keep_known(chosen, languages, characters, phones)
     columns = st.columns([5, 3, 3, 4, 4, 5], vertical_alignment="bottom")
-    for column, name, label, options, shown in (
+    asked: tuple[tuple[DeltaGenerator, str, str, list[str], dict[str, str]], ...] = (
         (columns[1], "left", "From", phones, {}),
         (columns[2], "right", "To", phones, {}),
         (columns[4], "language", "Language", list(languages), languages),
         (columns[5], "character", "Character", list(characters), characters),
-    ):
+    )
+    for column, name, label, options, shown in asked:
         st.session_state[f"curves_{name}"] = getattr(chosen, name)
-        value = column.selectbox(
-            label, options, key=f"curves_{name}", format_func=lambda one, shown=shown: shown.get(one, one), on_change=picked, args=(name,)
-        )
+        value = column.selectbox(label, options, key=f"curves_{name}", format_func=partial(_shown, shown), on_change=picked, args=(name,))
         setattr(chosen, name, value)
     st.session_state["curves_word"] = chosen.word
     columns[0].text_input("A word, and its pairs", key="curves_word", max_chars=200, placeholder="low", on_change=_typed)
@@ -181,7 +183,11 @@ def every_pair(language: str, character: str, revision: int) -> list[PairUse]:  
     return database().uses(counts, language=language, character=character)
 
 
-def _matrix_chart(uses: list[PairUse], chosen: Choice) -> alt.LayerChart:
+def _shown(titles: Mapping[str, str], name: str) -> str:
+    return titles.get(name, name)
+
+
+def _matrix_chart(uses: list[PairUse], chosen: Choice) -> alt.LayerChart | alt.FacetChart:
     rows = [{"left": use.left, "right": use.right, "origin": use.origin, "layer": use.layer} for use in uses]
     order = sorted({use.left for use in uses}, key=lambda phone: (phone == SILENCE, phone))
     click = alt.selection_point(name="pair", fields=["left", "right"], on="click", clear=False)

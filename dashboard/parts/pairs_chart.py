@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Literal
 
 import altair as alt
 import pandas as pd
@@ -121,9 +122,10 @@ def figure_two(frequency: Frequency) -> alt.LayerChart:
     line = base.mark_line(color="#d55e00", strokeWidth=2.5).encode(y=cover)
     at = alt.Chart(pd.DataFrame(marks)).encode(x=rank, y=cover)
     dots = at.mark_point(color="#d55e00", filled=True, size=70, opacity=1)
+    places: tuple[tuple[bool, Literal["left", "center"], int, int], ...] = ((False, "left", 9, 12), (True, "center", 0, 20))
     words = [
         at.transform_filter(alt.datum["last"] == last).mark_text(align=align, dx=dx, dy=dy, fontSize=13, color=ink()).encode(text="text:N")
-        for last, align, dx, dy in ((False, "left", 9, 12), (True, "center", 0, 20))
+        for last, align, dx, dy in places
     ]
     touch = base.mark_rule(strokeWidth=4, opacity=0).encode(tooltip=tooltip)
     return alt.layer(bars, alt.layer(line, dots, *words), touch).resolve_scale(y="independent").properties(height=480)

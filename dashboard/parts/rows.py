@@ -95,7 +95,9 @@ def table(held: Held, which: str, columns: Mapping[str, Any], *, rows: Literal["
         key=held.widget(which),
     )
     plain = edited.astype(object).where(edited.notna(), None).to_dict("records")
-    held.edited[which] = [row for row in plain if any(cell not in (None, "") for cell in row.values())]
+    held.edited[which] = [
+        {str(name): cell for name, cell in row.items()} for row in plain if any(cell not in (None, "") for cell in row.values())
+    ]
     return held.edited[which]
 
 

@@ -32,7 +32,9 @@ STRAIGHT = 1e-4
 """A point that is nearer than this to the line between its neighbours is not sent to the browser."""
 
 
-def stages_chart(made: Stages, schedule: Schedule, poses: list[str], shown: list[str], *, window: tuple[float, float]) -> alt.LayerChart:
+def stages_chart(
+    made: Stages, schedule: Schedule, poses: list[str], shown: list[str], *, window: tuple[float, float]
+) -> alt.LayerChart | alt.FacetChart:
     """Each stage of *shown* for each of *poses* within *window* seconds, with the common phones (the paper's Figures 6 to 10).
 
     Poses stand over each other in one plot, each on a floor of its own: plots in a column would not keep to the page's width.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lipdb.curated.schema import BY_HAND
 from lipdb.curated.tsv import Key, Records, Row
-from lipdb.curves.curve import Curve, curve_from_row
+from lipdb.curves.curve import Curve, CurveKey, curve_from_row
 from lipdb.curves.keys import Keys, format_keys, parse_keys
 from lipdb.curves.lookup import SHARED, CurveBook, Found
 from lipdb.errors import CurveError, InputError
@@ -56,7 +56,7 @@ class Place:
         folder = {COMMON: "", LANGUAGE: f"{self.language}/", CHARACTER: f"characters/{self.character}/"}[self.kind]
         return f"{folder}curves/{self.pose_set}.tsv"
 
-    def key(self, pose: str) -> Key:
+    def key(self, pose: str) -> CurveKey:
         """The key of the row of *pose*."""
         return self.left, self.right, pose
 
