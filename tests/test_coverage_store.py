@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner, Result
 from coverage_cases import text, write
+from test_cli_processes import heed_interrupts
 from test_coverage_scan import gone
 
 import lipdb
@@ -159,10 +160,12 @@ def test_a_corpus_of_which_nothing_can_be_counted_is_reported_and_an_error(tmp_p
 
 
 def test_stopped_by_a_person_it_leaves_no_process_and_goes_on_next_time(tmp_path: Path) -> None:
-    corpus = write(tmp_path, corpus=text(400_000)) / "corpus"  # more than is counted before anybody can stop it
+    corpus = write(tmp_path, corpus=text(60_000)) / "corpus"
     command = [sys.executable, "-m", "lipdb", "--db", str(tmp_path / "own.db"), "coverage", "scan", str(corpus), "--workers", "2"]
     environment = {**os.environ, "LIPDB_CACHE": str(tmp_path / "cache")}
-    with subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+    with subprocess.Popen(
+        command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=heed_interrupts
+    ) as running:
         while not list(tmp_path.glob("cache/coverage/parts/*/[!.]*.parquet")):
             assert running.poll() is None
             time.sleep(0.02)
