@@ -154,7 +154,9 @@ def test_the_loop_plays_the_edited_pair(app, curves) -> None:
     before = rounding(loop)
     drag(curves, "W", 1, up=16)
     until(curves, lambda: rounding(loop) > before + 0.1)
+    settled(curves)  # a click while the page is drawn anew can be lost
     curves.get_by_role("button", name="Discard").click()
+    curves.get_by_text("Not saved yet").wait_for(state="hidden")
     until(curves, lambda: abs(rounding(loop) - before) < 1e-6)
 
 
