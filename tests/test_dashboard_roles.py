@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from browser import PATIENCE, free_port, serving, settled
@@ -184,12 +185,15 @@ def folders_offered() -> bool:
     return "Another folder" in shown.selectbox(key="languages_left_kind").options
 
 
-def test_folders_of_this_machine_are_offered_to_its_own_people_only(db) -> None:
+def test_folders_of_this_machine_are_offered_to_its_own_people_only(db, monkeypatch) -> None:
     assert folders_offered()
     listen_on("0.0.0.0")
     assert not folders_offered()
     listen_on("localhost")
     assert folders_offered()
+    behind_a_proxy = SimpleNamespace(headers={"X-Forwarded-For": "203.0.113.7"}, cookies={})
+    monkeypatch.setattr("streamlit.context", behind_a_proxy)
+    assert not folders_offered()
 
 
 def test_only_the_gate_opens_the_database() -> None:
