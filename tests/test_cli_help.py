@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from lipdb import errors
-from lipdb.cli import COMMANDS, cli
+from lipdb.cli import COMMANDS, cli, main
 
 ROOT = Path(__file__).parent.parent
 
@@ -26,6 +26,28 @@ def test_help_shows_an_example_that_uses_the_command(path: tuple[str, ...]) -> N
     assert "Example" in result.output
     example = result.output.split("Example")[1].splitlines()
     assert any(line.strip().startswith("lipdb ") and f" {' '.join(path)}" in line for line in example)
+
+
+@pytest.mark.parametrize("path", [(), *sorted({leaf[:-1] for leaf in leaves(cli) if len(leaf) > 1})], ids=" ".join)
+def test_help_of_a_group_shows_an_example_and_the_whole_summary_of_each_command(path: tuple[str, ...]) -> None:
+    text = CliRunner().invoke(cli, [*path, "--help"]).output
+    assert "Example" in text
+    assert "..." not in text.split("Commands:")[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("sya", "lipdb: no command 'sya'; did you mean 'say'? See `lipdb --help`"),
+        ("db backpu", "lipdb: no command 'backpu'; did you mean 'backup'? See `lipdb db --help`"),
+        ("character delete", "lipdb: no command 'delete'; there are list, show, add; see `lipdb character --help`"),
+    ],
+)
+def test_a_command_that_there_is_not_ends_with_the_nearest_one(given, told, capsys, monkeypatch):
+    monkeypatch.setattr("sys.argv", ["lipdb", *given.split()])
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert (end.value.code, capsys.readouterr().err) == (2, f"{told}\n")
 
 
 def test_whoever_edits_is_found_out_in_one_way() -> None:

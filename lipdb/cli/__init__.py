@@ -15,7 +15,7 @@ from typing import Any
 
 import click
 
-from lipdb.cli.options import Options
+from lipdb.cli.options import Group, Options
 from lipdb.errors import LipdbError, OutputError
 
 COMMANDS = {
@@ -45,7 +45,7 @@ Exit codes:
 """
 
 
-class Commands(click.Group):
+class Commands(Group):
     """A group whose commands are imported on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
@@ -112,7 +112,8 @@ def main() -> None:
     except click.ClickException as error:
         ctx = getattr(error, "ctx", None)
         what = " ".join(error.format_message().split()).removesuffix(".")
-        click.echo(f"lipdb: {what}; see `{ctx.command_path if ctx else 'lipdb'} --help`", err=True)
+        end = " See" if what.endswith("?") else "; see"
+        click.echo(f"lipdb: {what}{end} `{ctx.command_path if ctx else 'lipdb'} --help`", err=True)
         sys.exit(error.exit_code)
     except LipdbError as error:
         click.echo(f"lipdb: {error}", err=True)

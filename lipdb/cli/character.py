@@ -6,12 +6,18 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing
+from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing
 
 
-@click.group(short_help="List, show and add characters.")
+@click.group(cls=Group, short_help="List, show and add characters.")
 def character() -> None:
-    """List, show and add characters."""
+    """List, show and add characters.
+
+    \b
+    Examples:
+      lipdb character add bob.glb --name bob
+      lipdb character show bob
+    """
 
 
 @character.command("list")

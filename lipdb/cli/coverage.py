@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lipdb.cli.coverage_report import compare, gaps, report, select
-from lipdb.cli.options import Options, json_option, print_json, print_listing, progress_bar
+from lipdb.cli.options import Group, Options, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import InputError
 
 if TYPE_CHECKING:
     from lipdb.coverage.register import Scanned
 
 
-@click.group(short_help="Count which phone pairs real text needs.")
+@click.group(cls=Group, short_help="Count which phone pairs real text needs.")
 def coverage() -> None:
     """Count which phone pairs real text needs.
 

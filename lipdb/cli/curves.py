@@ -8,15 +8,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from lipdb.cli.options import Options
+from lipdb.cli.options import Group, Options
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Key, Row
 
 
-@click.group()
+@click.group(cls=Group)
 def curves() -> None:
-    """Make the shared curves again from their parameters (targets/ and timing/)."""
+    """Make the shared curves again from their parameters (targets/ and timing/).
+
+    \b
+    Example:
+      lipdb curves generate --check
+    """
 
 
 @curves.command()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing
+from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing
 from lipdb.errors import ConflictError, DataError
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def _located(options: Options) -> Store:
     return Store.locate(options.db, options.phonesets)
 
 
-@click.group(short_help="Look after the database: history, undo, text in and out.")
+@click.group(cls=Group, short_help="Look after the database: history, undo, text in and out.")
 def db() -> None:
     """Look after the database: history, undo, text in and out.
 

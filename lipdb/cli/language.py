@@ -7,13 +7,20 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Options, author_option, json_option, print_json, print_listing, progress_bar
+from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import DataError
 
 
-@click.group(short_help="List, show, make and check languages.")
+@click.group(cls=Group, short_help="List, show, make and check languages.")
 def language() -> None:
-    """List, show, make and check languages."""
+    """List, show, make and check languages.
+
+    \b
+    Examples:
+      lipdb language show cmn
+      lipdb language new pl --from-espeak pl --text polish.txt --source user
+      lipdb language check pl
+    """
 
 
 @language.command("list")

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -35,6 +36,28 @@ class Options:
         if remind and database.store.outdated:
             click.echo("lipdb: the curated text has changed since this database took it in; merge it with `lipdb db upgrade`", err=True)
         return database
+
+
+class Group(click.Group):
+    """A group that lists its commands in the order in which they are defined, each with its whole summary."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        """The names, in the order in which people need them."""
+        return list(self.commands)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands; click itself would cut what is longer than a line."""
+        commands = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, command.get_short_help_str(200)) for name, command in commands if command])
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that *args* name; for a name that there is not, an error with the nearest one."""
+        name, names = args[0], self.list_commands(ctx)
+        if name not in names and not name.startswith("-") and not ctx.resilient_parsing:
+            near = get_close_matches(name, names, 1)
+            ctx.fail(f"no command {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"))
+        return super().resolve_command(ctx, args)
 
 
 def author_option(command: F) -> F:
