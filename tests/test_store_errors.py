@@ -103,6 +103,16 @@ def test_a_cut_off_database_is_an_error(file):
         Store.open(file, TEXT).records()
 
 
+@pytest.mark.parametrize("cells", ["substr(cells, 2)", "CAST(x'ff' AS TEXT)"], ids=["not JSON", "not UTF-8"])
+def test_a_damaged_row_is_an_error(file, cells):
+    with closing(sqlite3.connect(file)) as connection, connection:
+        connection.execute(f"UPDATE record SET cells = {cells} WHERE id = 3")
+    with closing(Store.open(file, TEXT)) as store:
+        for use in (store.records, store.check, store.upgrade, lambda: store.at(0)):
+            with one_line(StoreError, str(file), "damaged", "backup"):
+                use()
+
+
 def test_an_empty_file_becomes_a_database(tmp_path):
     file = tmp_path / "a.db"
     file.touch()
@@ -117,6 +127,25 @@ def test_wrong_text_makes_no_database(tmp_path):
     with pytest.raises(PhonesetError, match="no table has this name"):
         Store.open(tmp_path / "a.db", text)
     assert not (tmp_path / "a.db").exists()
+
+
+def test_text_in_a_folder_that_can_not_be_read_is_not_taken_for_deleted(locked_folder):
+    text = Path(tempfile.mkdtemp(prefix="lipdb-"))
+    try:
+        shutil.copytree(TEXT, text / "text")
+        (text / "text" / "curves").chmod(0)
+        with closing(Store.open(locked_folder / "a.db", text / "text")) as store:
+            for use in (lambda: store.load(text / "text", author="anna"), lambda: store.outdated, store.upgrade):
+                with one_line(PhonesetError, str(text / "text" / "curves"), "can't be read"):
+                    use()
+        (text / "text" / "curves").chmod(0o755)
+    finally:
+        shutil.rmtree(text)
+
+
+def test_a_folder_of_text_that_is_not_there_is_named(file, tmp_path):
+    with closing(Store.open(file, tmp_path / "nowhere")) as store, one_line(PhonesetError, str(tmp_path / "nowhere"), "--phonesets"):
+        assert store.outdated
 
 
 def test_the_folder_of_a_given_file_must_be_there(tmp_path):
@@ -239,6 +268,19 @@ def test_a_full_disk_leaves_an_older_backup_as_it_was(file, tmp_path):
         store.backup(tmp_path / "backup.db")
     assert (tmp_path / "backup.db").read_bytes() == b"older"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.db", "backup.db"]
+
+
+def test_a_full_disk_leaves_an_older_dump_as_it_was(file, tmp_path):
+    dump = tmp_path / "dump"
+    with closing(Store.open(file, TEXT)) as store:
+        store.dump(dump)
+        older = {path: path.read_bytes() for path in dump.rglob("*") if path.is_file()}
+        edit(store, comment="x" * 500)
+        with store.edit(author="anna") as staged:
+            staged.delete("common.tsv", ("bmp",))
+        with disk_space(400), one_line(OutputError, "sources.tsv"):
+            store.dump(dump)
+    assert {path: path.read_bytes() for path in dump.rglob("*") if path.is_file()} == older
 
 
 def test_a_program_that_dies_while_it_saves_leaves_everything_as_it_was(file):

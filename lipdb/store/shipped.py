@@ -9,7 +9,9 @@ from typing import Any
 
 import sqlalchemy as sa
 
+from lipdb.curated.folder import require_folder, table_files
 from lipdb.curated.tsv import Records
+from lipdb.errors import PhonesetError
 from lipdb.store.cells import flat, stored
 from lipdb.store.merge import Merge, merge
 from lipdb.store.revisions import Changed, read_flat, write
@@ -36,10 +38,14 @@ class Upgrade:
 
 
 def text_digest(folder: Path) -> str:
-    """A digest of every table below *folder*: two folders with the same text have the same."""
+    """A digest of every table below *folder*: two folders with the same text have the same. Raises `PhonesetError`."""
+    require_folder(folder)
     digest = hashlib.sha256()
-    for file in sorted(folder.rglob("*.tsv")):
-        content = file.read_bytes()
+    for file in table_files(folder):
+        try:
+            content = file.read_bytes()
+        except OSError as error:
+            raise PhonesetError(f"{file}: can't be read ({error.strerror}); look whether you may") from error
         digest.update(f"{file.relative_to(folder).as_posix()} {len(content)}\n".encode() + content)
     return digest.hexdigest()
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import sqlalchemy as sa
 
-from lipdb.curated.folder import write_folder
+from lipdb.curated.folder import table_files, write_folder
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import Records
 from lipdb.errors import OutputError
@@ -62,7 +62,7 @@ def dump_text(records: Records, folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         write_folder(records, folder)
-        for file in folder.rglob("*.tsv"):
+        for file in table_files(folder):
             path = file.relative_to(folder).as_posix()
             if path not in records and table_of(path) is not None:
                 file.unlink()
