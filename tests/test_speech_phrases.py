@@ -57,6 +57,13 @@ def test_a_mandarin_phrase_ends_where_the_voice_pauses(text: str):
     assert divided(MANDARIN, text) == paused(MANDARIN.speak(text).schedule)
 
 
+@pytest.mark.parametrize(("language", "text"), [("it", "La stazione è vicina, una lezione."), ("pt", "Boa viagem, fique quieto.")])
+def test_a_break_between_two_vowels_of_a_word_is_no_pause(language: str, text: str):
+    voice = espeak_voice(RECORDS, language)
+    pauses = sum(phone.silent for phone in voice.speak(text).schedule.phones)
+    assert pauses == len(voice.phrases(text)) + 1
+
+
 def test_a_phrase_is_made_of_words_of_symbols():
     assert ENGLISH.phrases("Bob, go") == ((("b", "ɑː", "b"),), (("ɡ", "oʊ"),))
 

@@ -36,8 +36,10 @@ if TYPE_CHECKING:
 
 NOTATION = "espeak"
 # Part of a voice's version: change it with anything that changes times, so that nobody is given what was kept before.
-SETTINGS = "175 words a minute, lead-in 0.25 s, closures 1"
+SETTINGS = "175 words a minute, lead-in 0.25 s, closures 1, breaks 1"
 STRESS = {"ˈ": 1, "ˌ": 2}
+LONGEST_BREAK = 0.1
+"""Seconds of silence within a word that are no pause: Italian "stazi-one" and Portuguese "vi-agem" have up to 0.064."""
 # Plosives and affricates, by the first sign of their label.
 STOP = re.compile(r"[pbtdkɡgqcɟʈɖɢʔ]")
 # In front of a small letter espeak takes a full stop for an abbreviation and makes no pause; people write so, too.
@@ -251,8 +253,10 @@ def mended_edges(marks: tuple[Mark, ...], sound: Sound) -> NDArray[np.float64]:
 def without_short_pauses(marks: tuple[Mark, ...], rate: int) -> tuple[Mark, ...]:
     """*marks* without language switches and without pauses too short for a mouth to close; the mark in front lasts on."""
     kept: list[Mark] = []
-    for mark in _joined_pauses(marks):
-        short = not mark.label and mark.end - mark.start < SHORTEST_PAUSE * rate
+    joined = _joined_pauses(marks)
+    for mark, following in zip(joined, [*joined[1:], joined[-1]], strict=True):
+        in_a_word = bool(kept) and kept[-1].position == following.position
+        short = not mark.label and mark.end - mark.start < (LONGEST_BREAK if in_a_word else SHORTEST_PAUSE) * rate
         if kept and (short or SWITCH.fullmatch(mark.label)):
             kept[-1] = kept[-1]._replace(end=mark.end)
         else:

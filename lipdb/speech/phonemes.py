@@ -5,7 +5,7 @@ where the voice pauses; here the same function of the library is called, which g
 
 A phrase ends where the synthesis is silent for `SHORTEST_PAUSE` or more: at the end of every clause, and at a pause
 phoneme at the end of a word, which espeak writes as one more separator ("left__ because"). One at the start or within a
-word is a break of 20 to 60 ms. Behind an abbreviation such as "Mr." a clause ends without a pause; the voice is asked.
+word is a break of 20 to 64 ms. Behind an abbreviation such as "Mr." a clause ends without a pause; the voice is asked.
 Against the synthesis of 600 English sentences this finds 476 of 483 pauses and one that is none; of 248 German ones 228,
 of 168 Spanish ones 167.
 """
