@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import Counter
 from collections.abc import Mapping
 from difflib import get_close_matches
@@ -151,10 +152,14 @@ class Database:
 
         self.store.require_writable()  # before any file is copied
         added = add_character(Path(path), name=name, title=title, records=self.records, folder=self.store.characters_folder)
-        with self.edit(author=author, note=f"Add the character {name}") as edit:
-            for table, rows in added.tables.items():
-                for row in rows:
-                    edit.put(table, row)
+        try:
+            with self.edit(author=author, note=f"Add the character {name}") as edit:
+                for table, rows in added.tables.items():
+                    for row in rows:
+                        edit.put(table, row)
+        except BaseException:
+            shutil.rmtree(self.store.characters_folder / name, ignore_errors=True)
+            raise
         return added
 
     def pose_set(self, name: str) -> PoseSet:
@@ -223,7 +228,7 @@ class Database:
             line = read_line(path, sound=sound)
         else:
             self.language(language)
-            raw: Schedule = plugins.by_suffix(plugins.readers(), path, "reader")(path, tier=tier)
+            raw: Schedule = plugins.by_suffix(plugins.readers(), path, "reader", besides=[".json"])(path, tier=tier)
             line = Line(replace(raw, language=language, notation=notation or raw.notation), sound)
         try:
             self._check_curves(line)

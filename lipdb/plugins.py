@@ -10,7 +10,7 @@ and whose module has functions of the names below, marked with `hookimpl`. lipdb
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -81,13 +81,13 @@ def exporters() -> dict[str, Exporter]:
     return _gather(_manager().hook.lipdb_exporters())
 
 
-def by_suffix(offers: Mapping[str, Any], path: Path, what: str) -> Any:
+def by_suffix(offers: Mapping[str, Any], path: Path, what: str, *, besides: Sequence[str] = ()) -> Any:
     """The offer for *path*: the longest suffix that its name ends with.
 
-    Raises `InputError` naming every suffix there is.
+    Raises `InputError` naming every suffix there is, and those that the caller reads *besides*.
     """
     name = path.name.lower()
     for suffix in sorted(offers, key=len, reverse=True):
         if name.endswith(suffix):
             return offers[suffix]
-    raise InputError(f"{path}: no {what} for this kind of file; there are {' '.join(sorted(offers))}")
+    raise InputError(f"{path}: no {what} for this kind of file; there are {' '.join(sorted({*offers, *besides}))}")

@@ -150,10 +150,10 @@ def test_what_can_not_be_used_leaves_nothing_behind(tmp_path, records, files, er
     assert list((tmp_path / "characters").iterdir()) == []
 
 
-@pytest.mark.parametrize("name", ["face.fbx", "nothing.glb"])
-def test_other_files_are_refused(tmp_path, records, name):
+@pytest.mark.parametrize(("name", "message"), [("face.fbx", "face.fbx: give a .glb"), ("nothing.glb", "nothing.glb: no such file")])
+def test_other_files_are_refused(tmp_path, records, name, message):
     (tmp_path / "face.fbx").write_bytes(b"x")
-    with pytest.raises(LipdbError):
+    with pytest.raises(LipdbError, match=message):
         add_character(tmp_path / name, name="bob", records=records, folder=tmp_path / "characters")
     assert list((tmp_path / "characters").iterdir()) == []
 
@@ -164,6 +164,13 @@ def test_files_of_an_attempt_that_was_never_saved_are_replaced(tmp_path, records
     (tmp_path / "characters" / "bob" / "old.txt").write_text("left")
     add_character(tmp_path / "a.glb", name="bob", records=records, folder=tmp_path / "characters")
     assert [file.name for file in (tmp_path / "characters" / "bob").iterdir()] == ["mesh.glb"]
+
+
+def test_a_character_that_can_not_be_saved_leaves_no_files(tmp_path, db):
+    (tmp_path / "a.glb").write_bytes(Builder(VOWELS).glb())
+    with pytest.raises(InputError, match="there is no author"):
+        db.add_character(tmp_path / "a.glb", name="bob", author=" ")
+    assert list(db.store.characters_folder.iterdir()) == []
 
 
 def test_a_file_where_the_folder_should_be_is_named(tmp_path, records):

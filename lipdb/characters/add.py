@@ -138,7 +138,8 @@ def _copy(path: Path, place: Path, name: str) -> tuple[str, tuple[str, ...]]:
         return MESH_FILE, mesh.shape_names
     if path.is_dir():
         return PICTURES, copy_pictures(picture_files(path), place / PICTURES)
-    raise InputError(f"{path}: give a .glb, .vrm or .gltf file, a folder of OBJ files, or a folder of SVG or PNG pictures")
+    what = "give" if path.exists() else "no such file; give"
+    raise InputError(f"{path}: {what} a .glb, .vrm or .gltf file, a folder of OBJ files, or a folder of SVG or PNG pictures")
 
 
 def _copy_file(source: Path, target: Path) -> None:

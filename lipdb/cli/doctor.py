@@ -54,8 +54,11 @@ def _database(options: Options) -> str:
 
 
 def _voice(options: Options) -> str:
+    speakers: dict[str, list[str]] = {}
     with options.open(remind=False) as db:
-        return "; ".join(f"{row['language']}: {db.voice(row['language']).version.split(';')[0]}" for row in db.languages())
+        for row in db.languages():
+            speakers.setdefault(db.voice(row["language"]).version.split(";")[0], []).append(row["language"])
+    return "; ".join(f"{version}: {', '.join(languages)}" for version, languages in speakers.items())
 
 
 def _pictures(_: Options) -> str:
