@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import lipdb
 from lipdb.coverage.archive import Archive
-from lipdb.coverage.corpus import sources
+from lipdb.coverage.corpus import parts, sources
 from lipdb.coverage.counts import Counts, Lines
 from lipdb.coverage.exact import ExactCounter
 from lipdb.coverage.executors import Workers
@@ -63,6 +63,45 @@ def folder_of_everything(folder: Path) -> Path:
     (folder / "gone").symlink_to(folder / "nothing")
     os.mkfifo(folder / "waiting")
     return folder
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        pa.array(["Hello moon", "Bob\nsees"]).dictionary_encode(),
+        pa.array([b"Hello moon", b"Bob\nsees"]),
+        pa.array(["Hello moon", "Bob\nsees"], pa.large_string()),
+        pa.array(["Hello moon", "Bob\nsees"], pa.string_view()),
+    ],
+    ids=lambda text: str(text.type.id),
+)
+def test_strings_are_text_however_parquet_keeps_them(db: lipdb.Database, tmp_path: Path, text: pa.Array) -> None:
+    file = rows(tmp_path / "a.parquet", text=text)
+    done = scan(db, [str(file)], language="en", scheduler="threads", folder=tmp_path / "parts", output=tmp_path / "r.parquet")
+    assert (done.told["spoken"], done.told["findings"]) == (3, [])
+
+
+@pytest.mark.parametrize(
+    ("columns", "says"),
+    [
+        ({"text": [1, 2]}, "its column text is int64, not strings"),
+        ({"text": ["Hello"], "document": [[1]]}, "its column document is list<element: int64>, not names"),
+        ({"body": ["Hello"]}, "it has no column text of strings, but body"),
+    ],
+)
+def test_a_parquet_file_whose_columns_are_no_text_says_which(tmp_path: Path, columns: dict[str, list[object]], says: str) -> None:
+    assert reported(rows(tmp_path / "a.parquet", **columns)) == [("not text", says)]
+
+
+def test_a_parquet_file_with_two_columns_of_one_name_is_reported(tmp_path: Path) -> None:
+    pq.write_table(pa.Table.from_arrays([pa.array(["Hi"])] * 2, names=["text", "text"]), tmp_path / "a.parquet")
+    assert reported(tmp_path / "a.parquet") == [("not text", "it has more than one column text")]
+
+
+def reported(path: Path) -> list[tuple[str, str]]:
+    """The reasons and the examples of what the reader leaves out of the file *path*."""
+    found = [part for source in sources([str(path)]) for part in ([source] if isinstance(source, Counts) else parts(source, 1 << 20))]
+    return [(row["reason"], row["example"]) for counts in found if isinstance(counts, Counts) for row in counts.findings.to_pylist()]
 
 
 def test_each_trouble_is_reported_and_the_rest_is_counted(db: lipdb.Database, tmp_path: Path) -> None:

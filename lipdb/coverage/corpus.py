@@ -26,6 +26,7 @@ COMPRESSED = {b"\x1f\x8b": "gzip", b"\x28\xb5\x2f\xfd": "zstd", b"BZh": "bz2"}
 MARKS = {codecs.BOM_UTF16_LE: UTF16, codecs.BOM_UTF16_BE: UTF16}
 _HEAD = 1 << 16
 _PARQUET = b"PAR1"
+_STRINGS = frozenset({pa.string(), pa.large_string(), pa.string_view(), pa.binary(), pa.large_binary()})
 _TEXTGRID = ".textgrid"
 
 
@@ -125,16 +126,33 @@ def parts(source: Source, size: int) -> Iterator[Part | Counts]:
 def _row_groups(source: Source) -> Iterator[Part | Counts]:
     try:
         with pq.ParquetFile(source.path) as file:
-            names, groups = file.schema_arrow.names, file.metadata.num_row_groups
-            kinds = {name: file.schema_arrow.field(name).type for name in ("text", "document") if name in names}
+            schema, groups = file.schema_arrow, file.metadata.num_row_groups
     except (OSError, ValueError) as error:
         yield finding(source.document, NOT_READABLE, f"the Parquet file is damaged: {error}")
         return
-    if "text" not in kinds or not (pa.types.is_string(kinds["text"]) or pa.types.is_large_string(kinds["text"])):
-        yield finding(source.document, NOT_TEXT, f"it has no column text of strings, but {', '.join(names)}")
+    if wrong := _wrong_columns(schema):
+        yield finding(source.document, NOT_TEXT, wrong)
         return
     for group in range(groups):
-        yield RowsPart(source.document, source.path, group, named="document" in kinds)
+        yield RowsPart(source.document, source.path, group, named="document" in schema.names)
+
+
+def _wrong_columns(schema: pa.Schema) -> str:
+    """Why a Parquet file of *schema* holds no text; nothing when it does.
+
+    Strings may stand in a dictionary, as categories are written, or as bytes, as older programs write them.
+    """
+    if "text" not in schema.names:
+        return f"it has no column text of strings, but {', '.join(schema.names)}"
+    for name in ("text", "document"):
+        if schema.names.count(name) > 1:
+            return f"it has more than one column {name}"
+    kind = schema.field("text").type
+    if (kind.value_type if pa.types.is_dictionary(kind) else kind) not in _STRINGS:
+        return f"its column text is {kind}, not strings"
+    if "document" in schema.names and pa.types.is_nested(schema.field("document").type):
+        return f"its column document is {schema.field('document').type}, not names"
+    return ""
 
 
 def _stream(source: Source, size: int) -> Iterator[Part | Counts]:
