@@ -6,6 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from lipdb.cli import cli
+from lipdb.coverage.corpus import sources
+from lipdb.errors import InputError
 
 TEXT = "The cat sat on the mat.\nBob may find five blue whales, or not.\nWho will buy my old boat?\nThe cat sat on the mat.\n"
 
@@ -68,6 +70,34 @@ def test_a_scan_compared_with_itself_does_not_differ(run) -> None:
     paper = json.loads(run("compare", "1", "xu2013", "--json").stdout)
     assert paper["total_variation"] is None
     assert paper["pairs"] > 10
+
+
+def test_a_report_is_in_the_language_of_its_scan(run) -> None:
+    (run.folder / "hallo.txt").write_text("Guten Tag, wie geht es?\n")
+    result = str(run.folder / "hallo.parquet")
+    run("scan", str(run.folder / "hallo.txt"), "--language", "de", "--output", result)
+    told = json.loads(run("report", result, "--json").stdout)
+    assert told["language"] == "de"
+    assert told == json.loads(run("report", "2", "--language", "de", "--json").stdout) | {"scan": result}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (("report", "999"), "no scan 999; `lipdb coverage list`"),
+        (("scan", ""), "'': there is no such file"),
+        (("report", "--top", "-3"), "not in the range"),
+        (("gaps", "--minutes", "-1"), "not in the range"),
+    ],
+)
+def test_what_cannot_be_meant_says_what_is_wrong(run, arguments, complaint) -> None:
+    assert complaint in str(run(*arguments, code=4).exception)
+
+
+def test_a_closed_standard_input_is_no_corpus(monkeypatch) -> None:
+    monkeypatch.setattr("sys.stdin", None)
+    with pytest.raises(InputError, match="standard input is closed"):
+        list(sources(["-"]))
 
 
 def test_a_language_without_a_scan_says_what_to_do(run) -> None:

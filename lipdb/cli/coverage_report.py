@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -13,28 +14,36 @@ if TYPE_CHECKING:
     from lipdb.coverage.reports.frequency import Frequency
     from lipdb.database import Database
 
-LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
+DEFAULT = "en"
+LANGUAGE = click.option("-l", "--language", default=DEFAULT, show_default=True, help="A language's code.")
+OF_SCAN = click.option("-l", "--language", help=f"A language's code; that of SCAN if not given, or {DEFAULT}.")
 CHARACTER = click.option("-c", "--character", default="robin", show_default=True, help="Whose curves.")
 TABLE_TWO = 21
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def _top(pairs: int) -> Callable[[Command], Command]:
+    """The option ``--top``, *pairs* by default."""
+    number = click.IntRange(min=0)
+    return click.option("--top", type=number, default=pairs, show_default=True, metavar="N", help="How many pairs to list; 0 lists all.")
 
 
 @click.command(short_help="Show how often each pair occurs, and how many pairs cover how much.")
 @click.argument("scan", required=False)
-@LANGUAGE
+@OF_SCAN
 @CHARACTER
-@click.option("--top", default=TABLE_TWO, show_default=True, metavar="N", help="How many pairs to list; 0 lists all.")
+@_top(TABLE_TWO)
 @click.option("--silence/--no-silence", default=False, show_default=True, help="Count pairs with silence too.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve into a .png, .svg or .pdf.")
 @json_option
 @click.pass_obj
 def report(
-    options: Options, /, scan: str | None, language: str, character: str, top: int, silence: bool, plot: Path | None, as_json: bool
+    options: Options, /, scan: str | None, language: str | None, character: str, top: int, silence: bool, plot: Path | None, as_json: bool
 ) -> None:
     """Show how often each pair of common phones occurs in SCAN, and how many pairs cover how much of it.
 
     SCAN is a scan's file, its number in `lipdb coverage list`, or a table of counts (.csv, .tsv); without it the newest scan
-    of the language is taken. The table
-    is the paper's Table 2, the plot its Figure 2.
+    of the language is taken. The table is the paper's Table 2, the plot its Figure 2.
 
     \b
     Examples:
@@ -45,7 +54,7 @@ def report(
     from lipdb.coverage.reports import report as reports
 
     with options.open() as db:
-        name, frequency = _frequency(db, scan, language, silence=silence)
+        name, language, frequency = _frequency(db, scan, language, silence=silence)
         common = {phone for mapped in db.phoneset(language) for phone in mapped.common}
         summary = reports.Summary.of(frequency, len(common | frequency.phones)).to_json()
         rows = [row.to_row() for row in reports.ranked(frequency, top or None)]
@@ -67,15 +76,15 @@ def report(
 
 @click.command(short_help="Show which pairs to author next.")
 @click.argument("scan", required=False)
-@LANGUAGE
+@OF_SCAN
 @CHARACTER
-@click.option("--top", default=20, show_default=True, metavar="N", help="How many pairs to list; 0 lists all.")
+@_top(20)
 @click.option("--silence/--no-silence", default=True, show_default=True, help="Count pairs with silence too.")
-@click.option("--minutes", default=5.0, show_default=True, help="What one pair takes an artist.")
+@click.option("--minutes", type=click.FloatRange(min=0), default=5.0, show_default=True, help="What one pair takes an artist.")
 @json_option
 @click.pass_obj
 def gaps(
-    options: Options, /, scan: str | None, language: str, character: str, top: int, silence: bool, minutes: float, as_json: bool
+    options: Options, /, scan: str | None, language: str | None, character: str, top: int, silence: bool, minutes: float, as_json: bool
 ) -> None:
     """List the pairs whose curves nobody has drawn or fitted yet, the most needed first.
 
@@ -89,7 +98,7 @@ def gaps(
     from lipdb.coverage.reports.gaps import gaps as find_gaps
 
     with options.open() as db:
-        name, frequency = _frequency(db, scan, language, silence=silence)
+        name, language, frequency = _frequency(db, scan, language, silence=silence)
         uses = db.uses(frequency.counts, language=language, character=character)
         found = find_gaps(uses, minutes=minutes)
     rows = [gap.to_row() for gap in found]
@@ -136,7 +145,7 @@ def select(options: Options, /, corpus: tuple[str, ...], language: str, most: in
 @click.command(short_help="Show how two counts differ.")
 @click.argument("first")
 @click.argument("second")
-@click.option("--top", default=20, show_default=True, metavar="N", help="How many pairs to list; 0 lists all.")
+@_top(20)
 @click.option("--silence/--no-silence", default=False, show_default=True, help="Count pairs with silence too.")
 @json_option
 @click.pass_obj
@@ -170,9 +179,9 @@ def compare(options: Options, /, first: str, second: str, top: int, silence: boo
     )
 
 
-def _frequency(db: Database, scan: str | None, language: str, *, silence: bool) -> tuple[str, Frequency]:
-    """The frequency that *scan* names, or the newest scan of *language*; and what to call it."""
-    from lipdb.coverage.reports.named import named_frequency, newest_scan
+def _frequency(db: Database, scan: str | None, language: str | None, *, silence: bool) -> tuple[str, str, Frequency]:
+    """What *scan* is called, or else the newest scan of *language*; its language where none is given; and how often its pairs occur."""
+    from lipdb.coverage.reports.named import language_of, named_frequency, newest_scan
 
-    name = scan or newest_scan(db, language)
-    return name, named_frequency(db, name, silence=silence)
+    name = scan or newest_scan(db, language or DEFAULT)
+    return name, language or language_of(db, name) or DEFAULT, named_frequency(db, name, silence=silence)

@@ -48,9 +48,13 @@ def sources(paths: Sequence[str]) -> Iterator[Source | Counts]:
     """
     for path in paths:
         if path == STANDARD_INPUT:
+            if sys.stdin is None:
+                raise InputError("standard input is closed; pipe a text in, or name a file")
             yield Source(path, Path(path), TEXT, 0)
-        elif not Path(path).exists():
-            raise InputError(f"{path}: there is no such file or folder; give a text, a folder of texts, or - for standard input")
+        elif not path or not Path(path).exists():
+            raise InputError(
+                f"{path or repr(path)}: there is no such file or folder; give a text, a folder of texts, or - for standard input"
+            )
         elif Path(path).is_fifo():
             # One that somebody names; those in a folder are not read, for nobody may ever write into them.
             yield Source(printable_path(Path(path)), Path(path), TEXT, 0)

@@ -61,14 +61,35 @@ def _read(path: Path, kind: str) -> pa.Table:
 
 def named_frequency(db: Database, name: str, *, silence: bool = True) -> Frequency:
     """The frequency that *name* means: a file, the number of a scan in `lipdb coverage list`, or published frequencies by name."""
-    path = Path(name)
     known = published(db.records)
-    if not path.exists():
-        if name in known:
-            rows = db.records[known[name]].values()
-            return Frequency.of(((row["left"], row["right"], float(row["percent"])) for row in rows), silence=silence, percent=True)
-        path = next((Path(scan.path) for scan in db.store.scans() if name == str(scan.id)), path)
-    return read_frequency(path, silence=silence)
+    if name in known and not Path(name).exists():
+        rows = db.records[known[name]].values()
+        return Frequency.of(((row["left"], row["right"], float(row["percent"])) for row in rows), silence=silence, percent=True)
+    return read_frequency(_file(db, name), silence=silence)
+
+
+def language_of(db: Database, name: str) -> str:
+    """The language of the scan that *name* means, as in `named_frequency`; nothing where nobody says."""
+    path = _file(db, name)
+    if path.suffix.lower() != ".parquet" or not path.is_file():
+        return ""
+    from lipdb.coverage.result import read_result
+
+    try:
+        return str(read_result(path).get("language", ""))
+    except (OSError, ValueError):
+        return ""  # whoever reads its table says what is wrong
+
+
+def _file(db: Database, name: str) -> Path:
+    """The file that *name* is, or that the scan of this number wrote. Raises `InputError` for a number that no scan has."""
+    path = Path(name)
+    if path.exists() or not name.isdecimal():
+        return path
+    scan = next((scan for scan in db.store.scans() if name == str(scan.id)), None)
+    if scan is None:
+        raise InputError(f"there is no scan {name}; `lipdb coverage list` shows the scans")
+    return Path(scan.path)
 
 
 def newest_scan(db: Database, language: str) -> str:
