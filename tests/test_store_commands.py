@@ -131,7 +131,7 @@ def test_upgrade_lists_conflicts_and_ends_with_6(lipdb, tmp_path):
     code, out, err = lipdb("upgrade")
     assert code == 6
     assert out == (
-        "curves/facefx.tsv\tbmp aa PBM\tchanged by both sides; yours stays\n"
+        "curves/facefx.tsv\tbmp aa PBM\ttheirs keys 0:1 0.5:0.8 1:0, yours keys 0:1 0.5:0.5 1:0\n"
         f"{tmp_path / 'a.db'}: schema 0003, 4 rows followed, 2 edited rows kept, 1 in conflict\n"
     )
     assert "rows were changed by both sides; yours stay: curves/facefx.tsv bmp aa PBM: theirs keys" in err

@@ -81,7 +81,7 @@ def upgrade(options: Options, as_json: bool) -> None:
         print_json(done.to_json())
     else:
         for one in merged.conflicts:
-            click.echo(f"{one.path}\t{' '.join(one.key)}\tchanged by both sides; yours stays")
+            click.echo(f"{one.path}\t{' '.join(one.key)}\t{one.sides}")
         click.echo(
             f"{store.where}: schema {done.schema}, {len(merged.followed)} rows followed, {len(merged.kept)} edited rows kept, "
             f"{len(merged.conflicts)} in conflict"

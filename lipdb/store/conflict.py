@@ -21,7 +21,12 @@ class Versions:
     theirs: Row | None
 
     def __str__(self) -> str:
-        return f"{self.path} {' '.join(self.key)}: theirs {differing(self.theirs, self.mine)}, yours {differing(self.mine, self.theirs)}"
+        return f"{self.path} {' '.join(self.key)}: {self.sides}"
+
+    @property
+    def sides(self) -> str:
+        """What the two sides say, where they differ."""
+        return f"theirs {differing(self.theirs, self.mine)}, yours {differing(self.mine, self.theirs)}"
 
     def swapped(self) -> Versions:
         """The same row seen from the other side."""
