@@ -1,15 +1,31 @@
-"""Write files and folders whole or not at all."""
+"""Read a person's text; write files and folders whole or not at all."""
 
 from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from lipdb.errors import OutputError
+from lipdb.errors import InputError, OutputError
+
+
+def read_text(file: Path) -> str:
+    """The text in *file*, or on standard input where that is ``-``. Raises `InputError` when it is not there or no UTF-8."""
+    piped = str(file) == "-"
+    where = "standard input" if piped else file
+    if piped and sys.stdin is None:  # a shell closed it (`<&-`)
+        raise InputError(f"{where} is closed; pipe a text in")
+    try:
+        data = sys.stdin.buffer.read() if piped else file.read_bytes()
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{where}: no UTF-8 text (byte {error.start + 1}); save it as UTF-8") from error
+    except OSError as error:
+        raise InputError(f"{where}: can't be read ({error.strerror})") from error
 
 
 @contextmanager

@@ -103,8 +103,8 @@ def test_a_mistake_is_one_line_with_its_exit_code(run: Run, tmp_path: Path, args
         (b"\xef\xbb\xbfHello", 0, ""),
         (b"a\0b\0c", 0, "2 characters that are no text"),
         (b"", 4, "at least one word"),
-        (b"caf\xe9", 4, "not UTF-8"),
-        (bytes(range(256)) * 1000, 4, "not UTF-8"),
+        (b"caf\xe9", 4, "no UTF-8 text"),
+        (bytes(range(256)) * 1000, 4, "no UTF-8 text"),
     ],
 )
 def test_text_comes_from_standard_input(run: Run, stdin: bytes, code: int, said: str) -> None:

@@ -1,11 +1,12 @@
-"""Files are written whole or not at all."""
+"""Files are written whole or not at all, and text is read from a file or a pipe."""
 
+import io
 from pathlib import Path
 
 import pytest
 
-from lipdb.errors import OutputError
-from lipdb.files import whole_file
+from lipdb.errors import InputError, OutputError
+from lipdb.files import read_text, whole_file
 
 
 def test_the_file_appears_when_the_block_ends(tmp_path: Path) -> None:
@@ -39,3 +40,19 @@ def test_a_full_disk_is_an_output_error_and_leaves_nothing(tmp_path: Path) -> No
     with pytest.raises(OutputError, match="No space"), whole_file(tmp_path / "a.txt"), full.open("w") as file:
         file.write("x" * 100_000)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_text_is_read_from_a_file_or_standard_input_without_its_mark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.txt").write_bytes("\ufeffcafé".encode())
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO("\ufeff你好".encode())))
+    assert (read_text(tmp_path / "a.txt"), read_text(Path("-"))) == ("café", "你好")
+
+
+def test_text_that_can_not_be_read_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.txt").write_bytes("café".encode("latin-1"))
+    for file, message in (("a.txt", "a.txt: no UTF-8 text .byte 4.; save it as UTF-8"), ("b.txt", "b.txt: can't be read")):
+        with pytest.raises(InputError, match=message):
+            read_text(tmp_path / file)
+    monkeypatch.setattr("sys.stdin", None)
+    with pytest.raises(InputError, match="standard input is closed; pipe a text in"):
+        read_text(Path("-"))

@@ -285,6 +285,15 @@ def test_unknown_symbols_are_all_counted_with_the_nearest_phone_and_why():
     assert "'§' (1x, nothing is known of it" in text
 
 
+def test_of_many_unknown_symbols_each_is_named_and_none_explained():
+    with pytest.raises(UnknownSymbolError) as caught:
+        XX.resolve(said(["these", "are", "words", "are", "no", "phones", "§"], "espeak"))
+    assert "6 unknown symbols" in str(caught.value)
+    assert "'are' (2x, nearest '" in str(caught.value)
+    assert "'§' (1x)" in str(caught.value)
+    assert "by articulation it is" not in str(caught.value)
+
+
 def test_a_misspelt_symbol_is_met_with_the_one_written_alike():
     with pytest.raises(UnknownSymbolError, match=r"'AYY' \(1x, nearest 'Y', written nearly as 'AY'"):
         XX.resolve(said(["AYY"], "arpabet"))

@@ -96,8 +96,8 @@ def new_language(
       lipdb language new ka --from-espeak ka --text - --source user -o ~/lipdb < georgian.txt
     """
     from lipdb.curated.folder import read_folder
+    from lipdb.files import read_text
     from lipdb.languages.new import new_language
-    from lipdb.languages.text import read_text
     from lipdb.paths import phonesets_dir, workspace_dir
 
     if text is not None and not source:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lipdb.cli.options import F, Options, json_option, print_json, print_listing, progress_bar
-from lipdb.errors import InputError
 
 if TYPE_CHECKING:
     from lipdb.database import Database
@@ -57,18 +55,13 @@ def say(options: Options, /, text: str, voice: str, language: str, allow_unknown
       lipdb say "Hello" --voice en-us+f2 -o hello.wav
     """
     if text == "-":
-        text = _standard_input()
+        from lipdb.files import read_text
+
+        text = read_text(Path(text))
     with options.open() as db:
         _check(db, **face)
         line = db.say(text, language=language, voice=voice, allow_unknown=allow_unknown)
         _deliver(db, line, **face)
-
-
-def _standard_input() -> str:
-    try:
-        return sys.stdin.buffer.read().decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise InputError(f"standard input is not UTF-8 text ({error}); convert it first") from error
 
 
 @click.command(short_help="Move a face to a recording that was aligned already.")

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 from lipdb.coverage.reports.frequency import Frequency, Pair
 from lipdb.coverage.reports.named import DELIMITERS, read_frequency
+from lipdb.files import read_text
 from lipdb.languages.sample import Sample, listen, symbols_of
-from lipdb.languages.text import read_text, sentences_of
+from lipdb.languages.text import sentences_of
 from lipdb.phones.phoneset import PhoneSet
 from lipdb.schedule import MICROSECONDS, SILENCE, Phone, Schedule
 

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import heapq
 import re
-import sys
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lipdb.errors import InputError
 from lipdb.languages.sample import symbols_of
 from lipdb.schedule import SILENCE
 from lipdb.speech.text import SCRIPTS
@@ -30,17 +27,6 @@ MOST_WORDS = 5000
 MOST_SENTENCES = 50_000
 """So much of a large text is looked at."""
 _SYLLABIC = {"HIRAGANA": "Jpan", "KATAKANA": "Jpan", "CJK": "Hans"}
-
-
-def read_text(file: Path) -> str:
-    """The text in *file*, or of standard input where that is ``-``. Raises `InputError` when it is not there or no UTF-8."""
-    try:
-        data = sys.stdin.buffer.read() if str(file) == "-" else file.read_bytes()
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file}: no UTF-8 text (byte {error.start + 1}); save it as UTF-8") from error
-    except OSError as error:
-        raise InputError(f"{file}: can't be read ({error.strerror})") from error
 
 
 def sentences_of(text: str) -> tuple[str, ...]:

@@ -19,6 +19,8 @@ from lipdb.schedule import SILENCE, Phone, Schedule
 
 _NO_LINE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 LONGEST_SHOWN = 40
+MOST_EXPLAINED = 5
+"""Of more unknown symbols than this the reasons are left out: that is a wrong tier or notation, not a missing row."""
 _SILENT = Mapped(SILENCE, (SILENCE,), COMMON, "silence")
 
 
@@ -34,6 +36,11 @@ class Unknown:
     def __str__(self) -> str:
         nearest = f"nearest {self.proposal!r}, " if self.proposal else ""
         return f"{shortened(self.symbol)!r} ({self.count}x, {nearest}{self.reason})"
+
+    @property
+    def brief(self) -> str:
+        """The same without the reason."""
+        return f"{shortened(self.symbol)!r} ({self.count}x{f', nearest {self.proposal!r}' if self.proposal else ''})"
 
 
 class PhoneSet:
@@ -158,9 +165,10 @@ class PhoneSet:
         return (" ".join(self.symbols.parts(alike[0], notation)), f"written nearly as {alike[0]!r}") if alike else None
 
     def _complaint(self, unknown: tuple[Unknown, ...], notation: str) -> str:
+        shown = [one.brief if len(unknown) > MOST_EXPLAINED else str(one) for one in unknown]
         return (
             f"{self.language}: {len(unknown)} unknown symbol{'s' if len(unknown) > 1 else ''} in notation {notation}: "
-            f"{'; '.join(map(str, unknown))}. "
+            f"{'; '.join(shown)}. "
             f"Add rows to {self.language}/aliases.tsv, or use --allow-unknown to map by articulation"
         )
 
