@@ -5,10 +5,13 @@ Commands are imported when they are asked for, so that `lipdb --help` answers at
 
 from __future__ import annotations
 
+import atexit
+import gc
 import os
 import signal
 import sys
 from contextlib import suppress
+from dataclasses import replace
 from importlib import import_module
 from types import FrameType
 from typing import Any
@@ -93,7 +96,7 @@ def cli(ctx: click.Context, db: str | None, phonesets: str | None) -> None:
       lipdb pairs "你好，世界" --language cmn
       lipdb doctor
     """
-    ctx.obj = Options(db, phonesets)
+    ctx.obj = replace(ctx.obj or Options(), db=db, phonesets=phonesets)
 
 
 def main() -> None:
@@ -102,8 +105,11 @@ def main() -> None:
         number = getattr(signal, name, None)  # Windows has no SIGHUP; nohup ignores it, and so it stays.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, _stop)
+    # A command makes much that lives as long as its process: looking through that for garbage takes 0.1 s, and at the end 0.3 s more.
+    gc.set_threshold(20_000, 50, 100)
+    atexit.register(gc.freeze)
     try:
-        cli(prog_name="lipdb", standalone_mode=False)
+        cli(prog_name="lipdb", standalone_mode=False, obj=Options(alone=True))
     except click.Abort:
         sys.exit(130)
     except click.exceptions.NoArgsIsHelpError as error:

@@ -63,7 +63,11 @@ def scan(
     from lipdb.coverage.executors import make_ready
 
     if not scheduler:
-        make_ready()  # before the imports that take longest
+        make_ready(language)  # before the imports that take longest
+        if options.alone:
+            from lipdb.coverage.plain_arrow import without_pandas
+
+            without_pandas()
     from lipdb.coverage.register import scan as run
 
     with options.open() as db:

@@ -23,10 +23,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """The global options."""
+    """The global options; and whether the command is *alone* in its process, which ends with it."""
 
-    db: str | None
-    phonesets: str | None
+    db: str | None = None
+    phonesets: str | None = None
+    alone: bool = False
 
     def open(self, *, remind: bool = True) -> Database:
         """The database that the options name; *remind* says when newer curated text waits to be merged into it."""

@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import IO, Any
 
 import lipdb
+from lipdb.coverage.executors import make_ready
+from lipdb.coverage.plain_arrow import without_pandas
 from lipdb.coverage.register import EXACT, scan
 from lipdb.errors import LipdbError, OutputError
 from lipdb.files import whole_file
@@ -100,4 +102,7 @@ def _seldom(tell: Callable[[str, int, int], None]) -> Callable[[str, int, int], 
 if __name__ == "__main__":
     # As an exception, so that those who count are ended in order.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
-    answer(json.load(sys.stdin), sys.stdout)
+    told_to_do = json.load(sys.stdin)
+    make_ready(told_to_do["language"])
+    without_pandas()
+    answer(told_to_do, sys.stdout)

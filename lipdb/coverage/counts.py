@@ -139,7 +139,8 @@ class Counts:
     @classmethod
     def read(cls, path: Path) -> Self:
         """What `write` wrote. Raises `OSError` or `ValueError` for any other file."""
-        pairs = pq.read_table(path)
+        with pq.ParquetFile(path) as file:  # pq.read_table would bring data sets and threads
+            pairs = file.read(use_threads=False)
         told = read_metadata(pairs.schema.metadata)
         if not pairs.schema.equals(PAIRS) or not all(name in told for name in _SCHEMAS if name != "pairs"):
             raise ValueError(f"{path}: no counts of a part of a corpus")

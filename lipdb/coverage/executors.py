@@ -10,13 +10,15 @@ import ctypes
 import gc
 import multiprocessing
 import os
+import pickle
 import signal
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, suppress
-from functools import partial
+from dataclasses import dataclass
+from functools import lru_cache, partial
 from multiprocessing import connection
 from typing import Any, Generic, NamedTuple, Self, TypeVar
 
@@ -68,8 +70,9 @@ class Workers:
         """
         suspects: list[Task] = []
         running: dict[Future[Result], Task] = {}
+        packed = self._packed(work)
         for task in tasks:
-            running[self._submit(work, task)] = task
+            running[self._submit(packed, task)] = task
             if len(running) >= self.count * AHEAD:
                 yield from self._finished(running, suspects)
         while running:
@@ -82,7 +85,7 @@ class Workers:
 
         Raises `LipdbError` when workers end whatever they are given.
         """
-        future = self._submit(work, task)
+        future = self._submit(self._packed(work), task)
         wait([future])
         if not _lost(future):
             return future.result()
@@ -100,6 +103,10 @@ class Workers:
                 suspects.append(task)
             else:
                 yield Done(task, future.result())
+
+    def _packed(self, work: Callable[[Task], Result]) -> Callable[[Task], Result]:
+        """*work* such as processes of this machine take it."""
+        return work if self._threads or self._scheduler else _Packed(pickle.dumps(work))
 
     def _submit(self, work: Callable[[Task], Result], task: Task) -> Future[Result]:
         limited = self._seconds and not self._threads and not self._scheduler and _CAN_LIMIT
@@ -130,22 +137,39 @@ class Workers:
 # Never forks of this process: one with threads can wait for a lock that nobody holds. A server without threads forks workers
 # that have their imports already; where there is no such thing each is spawned.
 _METHOD = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-# pyarrow loads pandas with the first array.
-_IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "lipdb.speech.espeak", "phonemizer.backend.espeak.wrapper", "pandas"]
+_PRELOADED = "lipdb.coverage.preload"
+_READERS = {"cmn": "pypinyin", "ja": "pyopenjtalk"}
+"""What reads the text of a language and takes long to import."""
 
 
-def make_ready() -> None:
-    """Begin to import what processes need, beside whatever this process does next; a second time does nothing."""
+def make_ready(language: str = "") -> None:
+    """Begin to import what processes need to count *language*, beside whatever this process does next; a second time does nothing."""
     if _METHOD == "forkserver":
         from multiprocessing import forkserver, resource_tracker
 
-        multiprocessing.get_context(_METHOD).set_forkserver_preload(_IMPORTED)
+        multiprocessing.get_context(_METHOD).set_forkserver_preload([_PRELOADED, *filter(None, [_READERS.get(language)])])
         resource_tracker.ensure_running()  # Else the server would start it, and let Ctrl-C through again.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is this process's business, not its imports'.
         try:
             forkserver.ensure_running()
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@dataclass(frozen=True, slots=True)
+class _Packed:
+    """Work that is pickled once for all tasks, and unpickled once in each process: it may hold all the tables of a voice."""
+
+    raw: bytes
+
+    def __call__(self, task: Any) -> Any:
+        return _unpacked(self.raw)(task)
+
+
+@lru_cache(maxsize=1)
+def _unpacked(raw: bytes) -> Callable[[Any], Any]:
+    work: Callable[[Any], Any] = pickle.loads(raw)
+    return work
 
 
 def _nothing(task: object) -> None:

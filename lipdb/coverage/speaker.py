@@ -232,10 +232,10 @@ def _with(row: Row, remarks: tuple[str, ...]) -> Row:
 
 def _remarks(text: str) -> tuple[str, ...]:
     """What of *text* is read in a way that a person may not expect."""
-    if not _named().search(text) and len(text) <= LONGEST_WORD and is_plain(text):
+    if not named_signs().search(text) and len(text) <= LONGEST_WORD and is_plain(text):
         return ()
     cleaned = cleaned_up(text)
-    named = _named().findall(cleaned.text)
+    named = named_signs().findall(cleaned.text)
     present = {
         EMOJI: cleaned.emoji,
         CONTROLS: cleaned.broken,
@@ -247,7 +247,7 @@ def _remarks(text: str) -> tuple[str, ...]:
 
 
 @cache
-def _named() -> re.Pattern[str]:
+def named_signs() -> re.Pattern[str]:
     """Digits, and symbols that voices read by their names."""
     kinds = ("Nd", "Sc", "Sm")
     return re.compile(

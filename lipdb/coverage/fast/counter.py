@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -79,7 +79,7 @@ class FastCounter:
     folder: Path | None = None
     size: int = SIZE
 
-    @property
+    @cached_property
     def key(self) -> str:
         """The way of counting, the voice, and what was learned."""
         voice = f"{self.voice.language} {self.voice.name}; {self.voice.version}"

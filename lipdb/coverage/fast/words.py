@@ -107,7 +107,7 @@ def cut(texts: pa.StringArray) -> Words:
 
 def is_character(word: str) -> bool:
     """Whether *word* is a Chinese character."""
-    return len(word) == 1 and (_kind_of_codes()[min(ord(word), PLANES)] == CHARACTER or PLANES <= ord(word) <= LAST_CHARACTER)
+    return len(word) == 1 and (kind_of_codes()[min(ord(word), PLANES)] == CHARACTER or PLANES <= ord(word) <= LAST_CHARACTER)
 
 
 def spans_of(texts: pa.StringArray) -> tuple[bytes, Places, Places]:
@@ -181,7 +181,7 @@ def _mark_others(raw: bytes, kinds: Bytes) -> None:
     for byte in range(1, 4):
         longer = widths > byte
         codes[longer] = (codes[longer] << 6) | (data[leads[longer] + byte] & 0x3F)
-    found = _kind_of_codes()[np.minimum(codes, PLANES)]
+    found = kind_of_codes()[np.minimum(codes, PLANES)]
     found[(codes >= PLANES) & (codes <= LAST_CHARACTER)] = CHARACTER
     kinds[leads] = found
     following = _FOLLOWING[found]
@@ -203,11 +203,11 @@ def _distinct(places: Places) -> Places:
 
 @cache
 def _ascii_kinds() -> bytes:
-    return bytes(_kind_of_codes()[:CONTINUATION]) + bytes(256 - CONTINUATION)
+    return bytes(kind_of_codes()[:CONTINUATION]) + bytes(256 - CONTINUATION)
 
 
 @cache
-def _kind_of_codes() -> Bytes:
+def kind_of_codes() -> Bytes:
     """The kind of every character below `PLANES`, by its code, and of one above."""
     kinds = np.frombuffer(bytearray(_KINDS.get(unicodedata.category(chr(code)), GAP) for code in range(PLANES + 1)), np.uint8)
     for codes in CHARACTERS:
