@@ -12,12 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
+from importlib.metadata import EntryPoints, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pluggy
 
-from lipdb.errors import InputError
+from lipdb.errors import InputError, MissingToolError
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from lipdb.speech.voice import Voice
 
 GROUP = "lipdb"
+OWN = "builtin"
+"""The plug-in that comes with lipdb (`lipdb.builtin`)."""
 hookspec = pluggy.HookspecMarker(GROUP)
 hookimpl = pluggy.HookimplMarker(GROUP)
 
@@ -38,7 +41,7 @@ Exporter = Callable[["Performance", Path], None]
 
 
 class Hooks:
-    """What a plug-in may offer; each answers with names, and later plug-ins win over earlier ones."""
+    """What a plug-in may offer; each answers with names. Others win over lipdb's own, and of others the last by name."""
 
     @hookspec
     def lipdb_voices(self) -> Mapping[str, VoiceMaker]:  # type: ignore[empty-body]
@@ -57,8 +60,20 @@ class Hooks:
 def _manager() -> pluggy.PluginManager:
     manager = pluggy.PluginManager(GROUP)
     manager.add_hookspecs(Hooks)
-    manager.load_setuptools_entrypoints(GROUP)
+    # lipdb's own first, so that any other may take a name over, however packages are found.
+    for entry in sorted(installed(), key=lambda entry: (entry.name != OWN, entry.name)):
+        try:
+            manager.register(entry.load(), entry.name)
+        except Exception as error:  # another's code fails in ways of its own
+            package = entry.dist.name if entry.dist else entry.value
+            what = f"plug-in {entry.name!r} of {package} can't be loaded ({type(error).__name__}: {' '.join(str(error).split())})"
+            raise MissingToolError(f"{what}; mend that package, or uninstall it") from error
     return manager
+
+
+def installed() -> EntryPoints:
+    """The plug-ins of the packages that are installed, lipdb's own among them."""
+    return entry_points(group=GROUP)
 
 
 def _gather(answers: list[Mapping[str, Any]]) -> dict[str, Any]:

@@ -67,4 +67,16 @@ def _pictures(_: Options) -> str:
     return backend()
 
 
-CHECKS: dict[str, Callable[[Options], str]] = {"database": _database, "voices": _voice, "pictures": _pictures}
+def _plugins(_: Options) -> str:
+    from lipdb import plugins
+
+    plugins.exporters()
+    others = [
+        f"{entry.name} ({entry.dist.name} {entry.dist.version})"
+        for entry in plugins.installed()
+        if entry.dist and entry.name != plugins.OWN
+    ]
+    return ", ".join(others) or "none but lipdb's own"
+
+
+CHECKS: dict[str, Callable[[Options], str]] = {"plug-ins": _plugins, "database": _database, "voices": _voice, "pictures": _pictures}
