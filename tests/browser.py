@@ -56,8 +56,10 @@ def free_port() -> int:
 
 
 @pytest.fixture(scope="module")
-def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dashboard]:
-    with serving(tmp_path_factory.mktemp("dashboard")) as dashboard:
+def app(as_shipped: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dashboard]:
+    folder = tmp_path_factory.mktemp("dashboard")
+    shutil.copy(as_shipped, folder)
+    with serving(folder) as dashboard:
         yield dashboard
 
 

@@ -51,6 +51,13 @@ def as_shipped(own_places: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def db(own_places: Path, as_shipped: Path) -> Iterator[lipdb.Database]:
-    """A database with the shipped data. Tests that edit make one of their own."""
+    """A database with the shipped data. Tests that edit take `own`."""
     with lipdb.open(shutil.copy(as_shipped, own_places / "shipped.db")) as database:
+        yield database
+
+
+@pytest.fixture
+def own(as_shipped: Path, tmp_path: Path) -> Iterator[lipdb.Database]:
+    """A database with the shipped data of the test's own, in `own.db` of its folder, to be edited."""
+    with lipdb.open(shutil.copy(as_shipped, tmp_path / "own.db")) as database:
         yield database

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,18 +11,22 @@ from typing import Any
 
 import pytest
 import streamlit as st
+from streamlit.components.v2.manifest_scanner import scan_component_manifests
 from streamlit.testing.v1 import AppTest
 
 import lipdb
 
+# Each AppTest looks through all installed packages for components: half a second, and always the same ones.
+installed_components = functools.cache(scan_component_manifests)
 DASHBOARD = Path(__file__).resolve().parents[1] / "dashboard"
 
 
 @contextmanager
-def behind_pages(file: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[lipdb.Database]:
+def behind_pages(file: str | Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[lipdb.Database]:
     """The database in *file*, on which pages work within the block; afterwards nothing of them is left in the process."""
     monkeypatch.syspath_prepend(str(DASHBOARD))
     monkeypatch.setenv("LIPDB_URL", str(file))
+    monkeypatch.setattr("streamlit.components.v2.manifest_scanner.scan_component_manifests", installed_components)
     listen_on("localhost")
     forget()
     with lipdb.open(str(file)) as database:

@@ -1,5 +1,7 @@
 """What a character has of its own, what it would inherit instead, and how its links are edited."""
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -13,9 +15,9 @@ CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp
 
 
 @pytest.fixture(scope="module")
-def own(tmp_path_factory):
+def own(as_shipped, tmp_path_factory):
     """Robin says p like f and has a curve and a link of its own; the crab has a curve, too."""
-    with lipdb.open(tmp_path_factory.mktemp("own") / "a.db") as db:
+    with lipdb.open(shutil.copy(as_shipped, tmp_path_factory.mktemp("own"))) as db:
         with db.edit(author="anna") as edit:
             edit.put("characters/robin/curves/facefx.tsv", CURVE)
             edit.put("characters/robin/mapping.tsv", {"language": "en", "phone": "p", "common": "f"})

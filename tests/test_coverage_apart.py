@@ -2,6 +2,7 @@
 
 import io
 import json
+import shutil
 import time
 
 import pytest
@@ -16,8 +17,8 @@ from lipdb.progress import reported
 
 
 @pytest.fixture(scope="module")
-def own(tmp_path_factory):
-    with lipdb.open(tmp_path_factory.mktemp("apart") / "own.db") as database:
+def own(as_shipped, tmp_path_factory):
+    with lipdb.open(shutil.copy(as_shipped, tmp_path_factory.mktemp("apart"))) as database:
         yield database
 
 

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import lipdb
 from lipdb.coverage.reports.compare import compare
 from lipdb.coverage.reports.frequency import Frequency
 from lipdb.coverage.reports.gaps import gaps
@@ -195,15 +194,14 @@ def test_gaps_are_what_nobody_has_drawn_the_most_needed_first(db) -> None:
     assert {gap.use.layer for gap in found} == {"common"}
 
 
-def test_a_pair_that_an_artist_drew_is_no_gap_any_more(tmp_path) -> None:
-    with lipdb.open(str(tmp_path / "own.db")) as own:
-        rows = [row for key, row in own.records["curves/facefx.tsv"].items() if key[:2] == ("ah", "d")]
-        with own.edit(author="anna") as edit:
-            for row in rows:
-                edit.put("curves/facefx.tsv", {**row, "keys": "0:0 0.5:0.3 1:0"})
-        counts = {("ah", "d"): 6.0, ("d", "ah"): 2.0}
-        assert [gap.use.pair for gap in gaps(own.uses(counts, language="en"))] == [("d", "ah")]
-        assert by_curve(own.uses(counts, language="en"))["origin"] == [
-            {"origin": "authored", "pairs": 1, "percent": 75.0},
-            {"origin": "generated", "pairs": 1, "percent": 25.0},
-        ]
+def test_a_pair_that_an_artist_drew_is_no_gap_any_more(own) -> None:
+    rows = [row for key, row in own.records["curves/facefx.tsv"].items() if key[:2] == ("ah", "d")]
+    with own.edit(author="anna") as edit:
+        for row in rows:
+            edit.put("curves/facefx.tsv", {**row, "keys": "0:0 0.5:0.3 1:0"})
+    counts = {("ah", "d"): 6.0, ("d", "ah"): 2.0}
+    assert [gap.use.pair for gap in gaps(own.uses(counts, language="en"))] == [("d", "ah")]
+    assert by_curve(own.uses(counts, language="en"))["origin"] == [
+        {"origin": "authored", "pairs": 1, "percent": 75.0},
+        {"origin": "generated", "pairs": 1, "percent": 25.0},
+    ]

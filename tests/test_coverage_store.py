@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -26,12 +25,6 @@ from lipdb.errors import InputError, OutputError
 from lipdb.store import Scan
 
 COLUMNS = ["document", "source_left", "source_right", "left", "right", "count"]
-
-
-@pytest.fixture
-def own(tmp_path: Path) -> Iterator[lipdb.Database]:
-    with lipdb.open(tmp_path / "own.db") as database:
-        yield database
 
 
 @pytest.fixture
@@ -110,58 +103,60 @@ def test_a_mode_that_there_is_not(own: lipdb.Database, story: Path) -> None:
         scan(own, [str(story)], language="en", mode="rough")
 
 
-def run(folder: Path, *arguments: str, code: int = 0, stdin: str | None = None) -> Result:
-    done = CliRunner().invoke(cli, ["--db", str(folder / "own.db"), "coverage", *arguments], input=stdin)
-    assert done.exit_code == code, done.output
+def run(db: lipdb.Database, *arguments: str) -> Result:
+    done = CliRunner().invoke(cli, ["--db", db.store.where, "coverage", *arguments])
+    assert done.exit_code == 0, done.output
     return done
 
 
-def test_scan_prints_the_path_of_the_result_and_reports_beside_it(story: Path, tmp_path: Path) -> None:
+def test_scan_prints_the_path_of_the_result_and_reports_beside_it(own: lipdb.Database, story: Path) -> None:
     write(story, three__txt="Привет\n5 € please\n")
-    done = run(tmp_path, "scan", str(story), "--scheduler", "threads")
+    done = run(own, "scan", str(story), "--scheduler", "threads")
     assert Path(done.stdout.strip()).is_file()
     assert "left out: 1 line in 1 document(s): other script" in done.stderr
     assert "read so: 1 line in 1 document(s): numbers" in done.stderr
-    again = run(tmp_path, "scan", str(story), "--scheduler", "threads")
+    again = run(own, "scan", str(story), "--scheduler", "threads")
     assert again.stdout == done.stdout
     assert "scanned already" in again.stderr
 
 
-def test_scan_tells_a_program_everything(story: Path, tmp_path: Path) -> None:
+def test_scan_tells_a_program_everything(own: lipdb.Database, story: Path, tmp_path: Path) -> None:
     write(story, three__txt="Привет\n")
-    told = json.loads(run(tmp_path, "scan", str(story), "--scheduler", "threads", "--json", "-o", str(tmp_path / "r.parquet")).stdout)
+    told = json.loads(run(own, "scan", str(story), "--scheduler", "threads", "--json", "-o", str(tmp_path / "r.parquet")).stdout)
     assert told["path"] == str(tmp_path / "r.parquet")
     assert (told["lines"], told["spoken"], told["documents"]) == (4, 3, 3)
     assert told["findings_by_document"] == [{"document": f"{story}/three.txt", "reason": "other script", "count": 1, "example": "Привет"}]
     assert told["findings"][0]["left_out"] is True
 
 
-def test_list_shows_the_newest_first_with_their_state(story: Path, tmp_path: Path) -> None:
-    run(tmp_path, "scan", str(story / "one.txt"), "--scheduler", "threads")
-    run(tmp_path, "scan", str(story / "two.txt"), "--scheduler", "threads")
-    rows = json.loads(run(tmp_path, "list", "--json").stdout)
+def test_list_shows_the_newest_first_with_their_state(own: lipdb.Database, story: Path) -> None:
+    run(own, "scan", str(story / "one.txt"), "--scheduler", "threads")
+    run(own, "scan", str(story / "two.txt"), "--scheduler", "threads")
+    rows = json.loads(run(own, "list", "--json").stdout)
     assert [(row["corpus"], row["state"], row["language"]) for row in rows] == [
         ([f"{story}/two.txt"], "current", "en"),
         ([f"{story}/one.txt"], "current", "en"),
     ]
-    assert run(tmp_path, "list").stdout.splitlines()[0].split("\t")[:5] == ["id", "time", "language", "mode", "state"]
+    assert run(own, "list").stdout.splitlines()[0].split("\t")[:5] == ["id", "time", "language", "mode", "state"]
 
 
 @pytest.mark.parametrize("files", [{"empty": ""}, {"script": "Привет\n"}, {}])
-def test_a_corpus_of_which_nothing_can_be_counted_is_reported_and_an_error(tmp_path: Path, files: dict[str, str]) -> None:
+def test_a_corpus_of_which_nothing_can_be_counted_is_reported_and_an_error(
+    own: lipdb.Database, tmp_path: Path, files: dict[str, str]
+) -> None:
     folder = write(tmp_path / "corpus", **files)
     with pytest.raises(InputError, match="holds nothing that can be counted"):
         CliRunner().invoke(
             cli,
-            ["--db", str(tmp_path / "own.db"), "coverage", "scan", str(folder), "--scheduler", "threads"],
+            ["--db", own.store.where, "coverage", "scan", str(folder), "--scheduler", "threads"],
             standalone_mode=False,
             catch_exceptions=False,
         )
 
 
-def test_stopped_by_a_person_it_leaves_no_process_and_goes_on_next_time(tmp_path: Path) -> None:
+def test_stopped_by_a_person_it_leaves_no_process_and_goes_on_next_time(own: lipdb.Database, tmp_path: Path) -> None:
     corpus = write(tmp_path, corpus=text(60_000)) / "corpus"
-    command = [sys.executable, "-m", "lipdb", "--db", str(tmp_path / "own.db"), "coverage", "scan", str(corpus), "--workers", "2"]
+    command = [sys.executable, "-m", "lipdb", "--db", own.store.where, "coverage", "scan", str(corpus), "--workers", "2"]
     environment = {**os.environ, "LIPDB_CACHE": str(tmp_path / "cache")}
     with subprocess.Popen(
         command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=heed_interrupts

@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import lipdb
 from lipdb.coverage.register import scan
 from lipdb.coverage.reports.frequency import Frequency
 from lipdb.coverage.reports.gaps import Outlook, gaps, outlook
@@ -57,30 +56,28 @@ def redraw(db, table, pair, **changes) -> None:
             edit.put(table, {**row, **changes})
 
 
-def test_of_several_languages_a_pair_is_as_good_as_the_worst_of_them(tmp_path) -> None:
+def test_of_several_languages_a_pair_is_as_good_as_the_worst_of_them(own) -> None:
     counts = {("ah", "d"): 6.0, ("d", "ah"): 2.0}
-    with lipdb.open(tmp_path / "own.db") as own:
-        redraw(own, "en/curves/facefx.tsv", ("ah", "d"), keys="0:0 0.5:0.3 1:0")
-        english, german = (uses_of(own, language, counts) for language in ("en", "de"))
-        assert (english["ah", "d"].origin, english["ah", "d"].layer) == ("authored", "language:en")
-        shown = {use.pair: use for use in together([english, german], frequency({("ah", "d"): 4}))}
-        assert (shown["ah", "d"].origin, shown["ah", "d"].layer, shown["ah", "d"].count) == ("generated", "common", 4)
-        assert shown["d", "ah"].count == 0
-        redraw(own, "curves/facefx.tsv", ("ah", "d"), keys="0:0 0.5:0.4 1:0")
-        everywhere = together([uses_of(own, language, counts) for language in ("en", "de")], frequency(counts))
-        assert (everywhere[0].origin, everywhere[0].layer) == ("authored", "common")
+    redraw(own, "en/curves/facefx.tsv", ("ah", "d"), keys="0:0 0.5:0.3 1:0")
+    english, german = (uses_of(own, language, counts) for language in ("en", "de"))
+    assert (english["ah", "d"].origin, english["ah", "d"].layer) == ("authored", "language:en")
+    shown = {use.pair: use for use in together([english, german], frequency({("ah", "d"): 4}))}
+    assert (shown["ah", "d"].origin, shown["ah", "d"].layer, shown["ah", "d"].count) == ("generated", "common", 4)
+    assert shown["d", "ah"].count == 0
+    redraw(own, "curves/facefx.tsv", ("ah", "d"), keys="0:0 0.5:0.4 1:0")
+    everywhere = together([uses_of(own, language, counts) for language in ("en", "de")], frequency(counts))
+    assert (everywhere[0].origin, everywhere[0].layer) == ("authored", "common")
 
 
-def test_a_pair_is_done_when_everything_in_it_that_moves_the_face_is_drawn(tmp_path) -> None:
-    with lipdb.open(tmp_path / "own.db") as own:
-        rows = {key[2]: row for key, row in own.records["curves/facefx.tsv"].items() if key[:2] == ("ah", "d")}
-        moving = [row for row in rows.values() if row["keys"]]
-        assert 0 < len(moving) < len(rows)
-        for done, row in enumerate(moving, 1):
-            with own.edit(author="anna") as edit:
-                edit.put("curves/facefx.tsv", {**row, "keys": "0:0 0.5:0.3 1:0"})
-            (use,) = own.uses({("ah", "d"): 1.0}, language="en")
-            assert (use.gap, use.origin) == ((True, "generated") if done < len(moving) else (False, "authored"))
+def test_a_pair_is_done_when_everything_in_it_that_moves_the_face_is_drawn(own) -> None:
+    rows = {key[2]: row for key, row in own.records["curves/facefx.tsv"].items() if key[:2] == ("ah", "d")}
+    moving = [row for row in rows.values() if row["keys"]]
+    assert 0 < len(moving) < len(rows)
+    for done, row in enumerate(moving, 1):
+        with own.edit(author="anna") as edit:
+            edit.put("curves/facefx.tsv", {**row, "keys": "0:0 0.5:0.3 1:0"})
+        (use,) = own.uses({("ah", "d"): 1.0}, language="en")
+        assert (use.gap, use.origin) == ((True, "generated") if done < len(moving) else (False, "authored"))
 
 
 def test_the_outlook_says_what_the_next_ones_change(db) -> None:

@@ -1,7 +1,7 @@
 """The page Languages in a real browser: a small invented language, from its phones to a face that speaks it."""
 
 import pytest
-from browser import seek, stage_state, until
+from browser import seek, serving, stage_state, until
 from shared_tables import copy_workspace
 
 import lipdb
@@ -16,6 +16,13 @@ def workspace(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("LIPDB_PHONESETS", str(folder))
         yield folder
+
+
+@pytest.fixture(scope="module")
+def app(workspace, tmp_path_factory):
+    """A dashboard on a database that is filled from the workspace."""
+    with serving(tmp_path_factory.mktemp("dashboard")) as dashboard:
+        yield dashboard
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import socket
 import sqlite3
 from contextlib import closing
@@ -14,8 +15,8 @@ CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp
 
 
 @pytest.fixture
-def db(tmp_path, monkeypatch):
-    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
+def db(as_shipped, tmp_path, monkeypatch):
+    with behind_pages(shutil.copy(as_shipped, tmp_path), monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:
             edit.put("curves/facefx.tsv", CURVE)
         yield db

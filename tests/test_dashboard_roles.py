@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -54,8 +55,8 @@ for name, way in ways.items():
 
 
 @pytest.fixture
-def db(tmp_path, monkeypatch):
-    with behind_pages(tmp_path / "lipdb.db", monkeypatch) as db:
+def db(as_shipped, tmp_path, monkeypatch):
+    with behind_pages(shutil.copy(as_shipped, tmp_path), monkeypatch) as db:
         with db.edit(author="anna", note="Rounder low") as edit:
             edit.put(TABLE, CURVE)
         yield db
@@ -148,12 +149,12 @@ def tab(chromium, url):
     context.close()
 
 
-def test_a_viewer_and_an_editor_sign_in_at_a_provider(tmp_path, chromium) -> None:
+def test_a_viewer_and_an_editor_sign_in_at_a_provider(as_shipped, tmp_path, chromium) -> None:
     port = free_port()
     (tmp_path / ".streamlit").mkdir()
     with provider() as known:
         (tmp_path / ".streamlit" / "secrets.toml").write_text(secrets(known, port, editors=["anna@example.org"]))
-        with lipdb.open(tmp_path / "lipdb.db") as db, db.edit(author="anna", note="Rounder low") as edit:
+        with lipdb.open(shutil.copy(as_shipped, tmp_path)) as db, db.edit(author="anna", note="Rounder low") as edit:
             edit.put(TABLE, CURVE)
         with serving(tmp_path, port=port) as app:
             # By a link to a page, on a server that has seen nobody yet.

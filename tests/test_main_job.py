@@ -70,20 +70,19 @@ def test_the_lines_own_layer_wins_over_every_other(db: lipdb.Database, tmp_path:
     assert np.array_equal(db.animate(db.sync(tmp_path / "edited.json")).track.weights, take.track.weights)
 
 
-def test_an_edit_for_one_character_leaves_the_others_alone(own_places: Path) -> None:
-    with lipdb.open(own_places / "override.db") as db:
-        line = db.say("Hello")
-        before = {name: db.animate(line, character=name).track.weights for name in ("robin", "crab")}
-        row = {"left": "ah", "right": "l", "pose": "mouth_open", "keys": "0:0 0.5:1 1:0", "warp": "border", "origin": "authored"}
-        with db.edit(author="ann", note="wider") as edit:
-            edit.put("characters/crab/curves/crab.tsv", {**row, "source": "user", "licence": "Apache-2.0", "comment": ""})
-        assert not np.array_equal(db.animate(line, character="crab").track.weights, before["crab"])
-        assert np.array_equal(db.animate(line, character="robin").track.weights, before["robin"])
-        found = next(use for use in db.pairs(line, character="crab") if (use.left, use.right) == ("ah", "l")).curves["mouth_open"]
-        assert found.layer == "character:crab"
-        assert found.curve.author == "ann"
-        db.store.undo(db.store.revision, author="ann")
-        assert np.array_equal(db.animate(line, character="crab").track.weights, before["crab"])
+def test_an_edit_for_one_character_leaves_the_others_alone(own: lipdb.Database) -> None:
+    line = own.say("Hello")
+    before = {name: own.animate(line, character=name).track.weights for name in ("robin", "crab")}
+    row = {"left": "ah", "right": "l", "pose": "mouth_open", "keys": "0:0 0.5:1 1:0", "warp": "border", "origin": "authored"}
+    with own.edit(author="ann", note="wider") as edit:
+        edit.put("characters/crab/curves/crab.tsv", {**row, "source": "user", "licence": "Apache-2.0", "comment": ""})
+    assert not np.array_equal(own.animate(line, character="crab").track.weights, before["crab"])
+    assert np.array_equal(own.animate(line, character="robin").track.weights, before["robin"])
+    found = next(use for use in own.pairs(line, character="crab") if (use.left, use.right) == ("ah", "l")).curves["mouth_open"]
+    assert found.layer == "character:crab"
+    assert found.curve.author == "ann"
+    own.store.undo(own.store.revision, author="ann")
+    assert np.array_equal(own.animate(line, character="crab").track.weights, before["crab"])
 
 
 @pytest.mark.parametrize(

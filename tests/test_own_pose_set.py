@@ -1,5 +1,6 @@
 """A face with poses that nobody thought of speaks: a set of three poses is nine rows of data, no code."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -19,8 +20,8 @@ CHARACTER = {"character": "toy", "pose_set": "toy", "shapes": "toy", "drawing": 
 
 
 @pytest.fixture(scope="module")
-def toys(own_places: Path):
-    with lipdb.open(own_places / "toys.db") as database:
+def toys(as_shipped: Path, own_places: Path):
+    with lipdb.open(shutil.copy(as_shipped, own_places / "toys.db")) as database:
         with database.edit(author="ann", note="A toy") as edit:
             edit.put("poses/sets.tsv", {**SET, **SOURCE})
             for pose in POSES:

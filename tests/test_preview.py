@@ -8,16 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import lipdb
 from lipdb.errors import InputError
 from lipdb.preview import mesh_bytes, preview
 from lipdb.sound import Sound
-
-
-@pytest.fixture(scope="module")
-def db(tmp_path_factory):
-    with lipdb.open(str(tmp_path_factory.mktemp("preview") / "lipdb.db")) as database:
-        yield database
 
 
 @pytest.fixture(scope="module")

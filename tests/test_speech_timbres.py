@@ -2,16 +2,9 @@
 
 import pytest
 
-import lipdb
 from lipdb.cli import cli
 from lipdb.errors import InputError
 from lipdb.sound import read_wav
-
-
-@pytest.fixture(scope="module")
-def db(tmp_path_factory):
-    with lipdb.open(str(tmp_path_factory.mktemp("timbres") / "lipdb.db")) as database:
-        yield database
 
 
 @pytest.mark.parametrize(("language", "text"), [("en", "Bob may go."), ("fr", "Le chat dort."), ("cmn", "你好")])

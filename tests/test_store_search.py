@@ -1,5 +1,7 @@
 """Finding revisions by who made them and what they are about, and what one did to the curves of a pair."""
 
+import shutil
+
 import pytest
 
 import lipdb
@@ -11,9 +13,9 @@ CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp
 
 
 @pytest.fixture(scope="module")
-def db(tmp_path_factory):
+def db(as_shipped, tmp_path_factory):
     """Five revisions after the first: two curves, a mapping, a phone, and an undo."""
-    with lipdb.open(tmp_path_factory.mktemp("found") / "a.db") as db:
+    with lipdb.open(shutil.copy(as_shipped, tmp_path_factory.mktemp("found"))) as db:
         with db.edit(author="anna", note="Rounder low") as edit:  # 2
             edit.put("curves/facefx.tsv", CURVE)
         with db.edit(author="bob", note="50% for Robin") as edit:  # 3

@@ -135,6 +135,24 @@ def test_a_store_knows_whether_newer_text_waits_to_be_merged(file, tmp_path):
     store.close()
 
 
+def test_text_that_was_loaded_does_not_wait_to_be_merged(file, tmp_path):
+    newer = changed(tmp_path, (("bmp", "aa", "PBM"), "0:1 1:0"))
+    store = Store.open(file, newer)
+    loaded = store.load(newer, author="anna")
+    assert not store.outdated
+    store.undo(loaded.revision, author="anna")
+    again = store.upgrade()
+    assert (again.revision, [one.key for one in again.merge.kept]) == (None, [("bmp", "aa", "PBM")])
+    store.close()
+
+
+def test_text_of_another_folder_that_was_loaded_is_not_the_one_to_merge(file, tmp_path):
+    store = Store.open(file, changed(tmp_path, (("bmp", "aa", "PBM"), "0:1 1:0")))
+    store.load(TEXT, author="anna")
+    assert store.outdated
+    store.close()
+
+
 VALUES = st.none() | st.sampled_from(["0:0 1:1", "0:1 1:0", ""])
 
 

@@ -95,11 +95,8 @@ def test_the_viewer_is_small_needs_nothing_from_elsewhere_and_names_the_licence_
         assert "@import" not in style.read_text(encoding="utf-8")
 
 
-def test_a_character_stays_within_the_budget_of_vertices(tmp_path) -> None:
-    import lipdb
-
-    with lipdb.open(str(tmp_path / "lipdb.db")) as db:
-        for row in db.characters():
-            mesh = db.character(row["character"]).mesh
-            if mesh is not None:
-                assert sum(len(part.positions) for part in mesh.parts) <= 15_000
+def test_a_character_stays_within_the_budget_of_vertices(db) -> None:
+    meshes = [mesh for row in db.characters() if (mesh := db.character(row["character"]).mesh)]
+    assert len(meshes) > 1
+    for mesh in meshes:
+        assert sum(len(part.positions) for part in mesh.parts) <= 15_000
