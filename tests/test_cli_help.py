@@ -26,6 +26,8 @@ def test_help_shows_an_example_that_uses_the_command(path: tuple[str, ...]) -> N
     assert "Example" in result.output
     example = result.output.split("Example")[1].splitlines()
     assert any(line.strip().startswith("lipdb ") and f" {' '.join(path)}" in line for line in example)
+    told = result.output.split("Options:")[0].splitlines()[2:]
+    assert all(line.startswith("  ") for line in told if line), "a line break in an example spoils the whole text"
 
 
 @pytest.mark.parametrize("path", [(), *sorted({leaf[:-1] for leaf in leaves(cli) if len(leaf) > 1})], ids=" ".join)

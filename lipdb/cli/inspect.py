@@ -33,7 +33,7 @@ def phones(options: Options, /, text: str | None, language: str, character: str 
     \b
     Examples:
       lipdb phones "你好" --language cmn
-      printf 'ʁ\nt͡ɕʰ\nkʷ\n' | lipdb phones --ipa --json
+      printf 'ʁ\\nt͡ɕʰ\\nkʷ\\n' | lipdb phones --ipa --json
     """
     if [text is not None, ipa, common].count(True) != 1:
         raise click.UsageError("give a TEXT, or --ipa (IPA segments on standard input), or --common, and only one of them")
