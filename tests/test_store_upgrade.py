@@ -142,7 +142,8 @@ def test_text_that_was_loaded_does_not_wait_to_be_merged(file, tmp_path):
     assert not store.outdated
     store.undo(loaded.revision, author="anna")
     again = store.upgrade()
-    assert (again.revision, [one.key for one in again.merge.kept]) == (None, [("bmp", "aa", "PBM")])
+    assert (again.revision, again.merge.conflicts) == (None, ())
+    assert ("bmp", "aa", "PBM") in [one.key for one in again.merge.kept]  # taken back on purpose
     store.close()
 
 

@@ -29,7 +29,7 @@ from lipdb.store.revisions import Present, newest_revision, present_rows
 from lipdb.store.scans import Scan, add_scan, read_scans
 from lipdb.store.search import Wanted, find_revisions, read_authors, read_kinds
 from lipdb.store.setup import create, upgrade_tables
-from lipdb.store.shipped import Upgrade, merge_shipped, merged_digest, text_digest
+from lipdb.store.shipped import Upgrade, merge_shipped, merged_digest, remember, text_digest
 from lipdb.store.tables import SCHEMA, change, record
 from lipdb.store.text import Loaded, dump_text, load_text
 from lipdb.store.undo import undo
@@ -226,11 +226,15 @@ class Store:
         """Make the records what the text in *folder* says, as one revision.
 
         With *since*, the revision that the folder was dumped from, rows that others changed after it stay unless the
-        text changed them too; that raises `EditConflictError`. Without it the text wins everywhere.
+        text changed them too; that raises `EditConflictError`. Without it the text wins everywhere. Where *folder* is the one
+        that `upgrade` merges, nothing of it waits to be merged any more.
         """
         records = read_folder(folder)
         with self._writing() as connection:
-            return load_text(connection, records, since=since, author=author, time=_now(), note=note or f"Load {folder.name}")
+            loaded = load_text(connection, records, since=since, author=author, time=_now(), note=note or f"Load {folder.name}")
+            if folder.resolve() == self.phonesets.resolve():
+                remember(connection, records, text_digest(folder))
+        return loaded
 
     def dump(self, folder: Path, number: int | None = None) -> int:
         """Write the records, or those of revision *number*, as canonical text below *folder*; the revision they are of.

@@ -59,7 +59,7 @@ def fill(connection: sa.Connection, records: Records, digest: str, *, time: str)
     """Make revision 1 of the shipped *records* in an empty store."""
     changes = [Changed(place, None, row) for place, row in sorted(flat(records).items())]
     write(connection, changes, author=PROGRAM, time=time, note="Fill from the shipped text")
-    _remember(connection, records, digest)
+    remember(connection, records, digest)
 
 
 def merge_shipped(connection: sa.Connection, records: Records, digest: str, *, time: str) -> tuple[Merge, int | None]:
@@ -68,11 +68,12 @@ def merge_shipped(connection: sa.Connection, records: Records, digest: str, *, t
     outcome = merge(read_flat(connection, shipped), flat(records), mine)
     changes = [Changed(place, mine.get(place), row) for place, row in outcome.followed.items()]
     number = write(connection, changes, author=PROGRAM, time=time, note="Follow newer shipped text") if changes else None
-    _remember(connection, records, digest)
+    remember(connection, records, digest)
     return outcome, number
 
 
-def _remember(connection: sa.Connection, records: Records, digest: str) -> None:
+def remember(connection: sa.Connection, records: Records, digest: str) -> None:
+    """Take *records* for the text that was merged last."""
     connection.execute(sa.delete(shipped))
     connection.execute(sa.insert(shipped), [{"path": path, "key": key, "cells": cells} for path, key, cells in stored(records)])
     connection.execute(sa.delete(fact).where(fact.c.name == _DIGEST))
