@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError
 from lipdb.languages.draft import WRITTEN, Draft, Entry, with_rows
-from lipdb.languages.folder import require_code
 from lipdb.languages.labels import read_espeak
-from lipdb.languages.new import hear_language, require_sentences
+from lipdb.languages.new import hear_language, require_new, require_sentences
 from lipdb.languages.precedent import judged, precedents
 from lipdb.languages.propose import NOTATION, Phone, Proposed
 from lipdb.languages.sample import listen, symbols_of
@@ -28,7 +27,7 @@ _SEPARATORS = re.compile(r"[\s,;/\[\]|]+")
 
 def draft_of_voice(code: str, *, records: Records, voice: str, name: str, text: str | None, source: str = USER_SOURCE) -> Draft:
     """A draft of what espeak-ng's *voice* says of *text*. Raises `InputError` and `MissingToolError`."""
-    _require_new(code, records)
+    require_new(code, records)
     heard = hear_language(code, records=records, voice=voice, name=name, text=text, source=source)
     if not heard.proposed.phones:
         raise InputError(f"text: the voice {voice} says nothing that is a phone; give another text or another voice")
@@ -41,7 +40,7 @@ def draft_of_phones(code: str, *, records: Records, name: str, ipa: str, text: s
 
     Each phone may have its spelling in *text* behind it: ``ʃ=sh``.
     """
-    _require_new(code, records)
+    require_new(code, records)
     if not name.strip():
         raise InputError("give the language a name")
     entries = {one.phone.ipa: one for one in typed_entries(ipa, records)}
@@ -51,12 +50,6 @@ def draft_of_phones(code: str, *, records: Records, name: str, ipa: str, text: s
     draft = Draft(row, entries, Proposed((), (), ()), sentences, source)
     draft.notes = tuple(_find_examples(draft, records))
     return draft
-
-
-def _require_new(code: str, records: Records) -> None:
-    require_code(code)
-    if f"{code}/language.tsv" in records:
-        raise InputError(f"language {code!r} is there already; edit it, or choose another code")
 
 
 def typed_entries(text: str, records: Records) -> list[Entry]:
@@ -78,9 +71,7 @@ def typed_entries(text: str, records: Records) -> list[Entry]:
             wrong.append(ipa)
     if wrong:
         shown = ", ".join(repr(shortened(one)) for one in dict.fromkeys(wrong[:5]))
-        raise InputError(
-            f"no IPA: {shown}; write phones as in the IPA chart with spaces between them, such as p a ʃ tʃ, or ʃ=sh with its spelling"
-        )
+        raise InputError(f"no IPA: {shown}; {TYPING}")
     if not entries:
         raise InputError(f"there is no phone; {TYPING}")
     if len(entries) > MOST_PHONES:

@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lipdb.languages.reuse_text import heard
-from lipdb.languages.sample import listen
+from lipdb.languages.sample import Sample, listen
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
@@ -21,10 +21,10 @@ class Examples:
     def __init__(self, database: Database, language: str, character: str | None = None) -> None:
         phoneset = database.phoneset(language, character=character)
         sentences = [sentence for (sentence,) in database.records.get(f"{language}/sentences.tsv", {})]
-        sample = listen(database.voice(language), sentences)
+        voice = database.voice(language)
         self.pairs: dict[str, frozenset[Pair]] = {}
-        for sentence, phrases in sample.said.items():
-            frequency, _ = heard(type(sample)({sentence: phrases}), phoneset)
+        for sentence, phrases in listen(voice, sentences).said.items():
+            frequency, _ = heard(Sample({sentence: phrases}), phoneset, voice.notation)
             self.pairs[sentence] = frozenset(frequency.pairs)
 
     def containing(self, left: str, right: str) -> list[str]:

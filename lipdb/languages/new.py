@@ -131,6 +131,12 @@ def require_free(code: str, folder: Path, records: Records) -> None:
     require_code(code)
     if (folder / code).exists():
         raise InputError(f"{folder / code} is there already; edit it, or choose another code")
+    require_new(code, records)
+
+
+def require_new(code: str, records: Records) -> None:
+    """Raise `InputError` unless *code* can be a further language's in *records*."""
+    require_code(code)
     if f"{code}/language.tsv" in records:
         raise InputError(f"language {code!r} is there already; edit it, or choose another code")
 

@@ -45,25 +45,22 @@ def frequency_of(database: Database, language: str, corpus: Path | None = None) 
         name, sentences = corpus.name, sentences_of(read_text(corpus))
     if not sentences:
         return Text(name, Frequency.of(()), ("there is no text to count; give one with --corpus",))
-    sample = listen(database.voice(language), sentences)
-    frequency, notes = heard(sample, database.phoneset(language))
+    voice = database.voice(language)
+    sample = listen(voice, sentences)
+    frequency, notes = heard(sample, database.phoneset(language), voice.notation)
     if sample.refused:
         first = next(iter(sample.refused.values()))
         notes = (f"{len(sample.refused)} of {len(sentences)} sentences can't be read: {first}", *notes)
     return Text(name, frequency, notes)
 
 
-def heard(sample: Sample, phoneset: PhoneSet) -> tuple[Frequency, tuple[str, ...]]:
-    """How often each pair of common phones occurs in what a voice said, with ``_`` at the ends of phrases.
+def heard(sample: Sample, phoneset: PhoneSet, notation: str) -> tuple[Frequency, tuple[str, ...]]:
+    """How often each pair of common phones occurs in what a voice said in *notation*, with ``_`` at the ends of phrases.
 
     And notes on symbols that no table knows, which are mapped by articulation.
     """
-    symbols = sorted({symbol for phrases in sample.said.values() for symbol in symbols_of(phrases)}) or [SILENCE]
-    edges = tuple(MICROSECONDS * i for i in range(len(symbols) + 1))
-    raw = Schedule(edges, tuple(Phone(symbol) for symbol in symbols), phoneset.language, "")
-    notation = phoneset.notation_of(raw)
     common, notes = {}, []
-    for symbol in symbols:
+    for symbol in sorted({symbol for phrases in sample.said.values() for symbol in symbols_of(phrases)}):
         alone = Schedule((0, MICROSECONDS), (Phone(symbol),), phoneset.language, notation)
         resolved, unknown = phoneset.resolve(alone, allow_unknown=True)
         common[symbol] = [name for phone in resolved.phones for name in phone.common]
