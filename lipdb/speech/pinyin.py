@@ -10,7 +10,7 @@ import re
 import unicodedata
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 from lipdb.errors import InputError
@@ -195,6 +195,15 @@ def split_numbered(reading: str) -> list[tuple[str, int]]:
 
 def _read_han(text: str) -> Iterator[tuple[str, str, int]]:
     """Written character, plain pinyin and tone of each character of *text*."""
+    from pypinyin.core import Pinyin
+
+    for word in Pinyin().seg(text):
+        yield from _read_word(word)
+
+
+@lru_cache(maxsize=1 << 16)
+def _read_word(word: str) -> list[tuple[str, str, int]]:
+    """As `_read_han`. pypinyin reads each word of its own as if it stood alone, and most come again and again."""
     from pypinyin import Style, lazy_pinyin
 
     unread: list[str] = []
@@ -203,10 +212,10 @@ def _read_han(text: str) -> Iterator[tuple[str, str, int]]:
         unread.append(part)
         return part
 
-    readings = lazy_pinyin(text, style=Style.TONE3, neutral_tone_with_five=True, tone_sandhi=True, errors=refuse)
+    readings = lazy_pinyin([word], style=Style.TONE3, neutral_tone_with_five=True, tone_sandhi=True, errors=refuse)
     if unread:
         raise InputError(f"text: nobody knows how to read {unread[0]!r}; write its pinyin (for example ni3) instead")
-    yield from ((written, reading[:-1], int(reading[-1])) for written, reading in zip(text, readings, strict=True))
+    return [(written, reading[:-1], int(reading[-1])) for written, reading in zip(word, readings, strict=True)]
 
 
 def _with_tones(word: str) -> list[tuple[str, int]]:
