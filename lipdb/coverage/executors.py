@@ -212,6 +212,7 @@ def _begin(environment: Mapping[str, str]) -> None:
     os.environ.update(environment)
     _keep_memory()
     gc.freeze()  # What is there now stays: nobody need look through it for garbage again and again.
+    gc.enable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     parent = multiprocessing.parent_process()

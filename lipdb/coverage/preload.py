@@ -5,6 +5,7 @@ What is left out here each of them makes for itself when it comes to it, while e
 
 from __future__ import annotations
 
+import gc
 from contextlib import suppress
 from importlib import import_module
 
@@ -16,6 +17,7 @@ from lipdb.coverage.speaker import named_signs
 from lipdb.errors import LipdbError
 from lipdb.speech import espeak, libespeak, phonemes  # noqa: F401
 
+gc.disable()  # Nothing of what comes now, and is imported after it, is garbage; those that are forked enable it.
 without_pandas()
 for module in ("pyarrow.acero", "numpy.ma", "encodings.utf_16_le", "email.parser"):  # imported only when something of them is used
     import_module(module)
