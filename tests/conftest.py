@@ -12,7 +12,7 @@ from hypothesis import settings
 
 import lipdb
 
-pytest_plugins = ["browser", "store_cases"]
+pytest_plugins = ["browser", "command_line", "store_cases"]
 
 # How long an example takes depends on the machine, and says nothing about lipdb.
 settings.register_profile("lipdb", deadline=None)

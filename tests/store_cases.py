@@ -10,7 +10,8 @@ import pytest
 
 from lipdb.store import Store
 
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
+DATABASES = Path(__file__).parent / "data" / "databases"
+TEXT = DATABASES / "text"
 CURVES = "curves/facefx.tsv"
 KEY = ("aa", "bmp", "PBM")
 

@@ -8,6 +8,7 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from store_cases import TEXT
 
 from lipdb.curated.folder import read_folder, write_folder
 from lipdb.curated.schema import TABLES, Column, table_of
@@ -15,8 +16,6 @@ from lipdb.curated.tsv import canonical_row, key_of
 from lipdb.curves.keys import format_keys
 from lipdb.paths import data_dir
 from lipdb.store import Store
-
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
 
 words = st.text(st.characters(codec="utf-8", exclude_categories=["Z", "C"]), min_size=1, max_size=6)
 sentences = st.text(st.characters(codec="utf-8"), max_size=20)

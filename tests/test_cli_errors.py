@@ -1,39 +1,20 @@
 """Every mistake on the command line ends with one line on standard error and a documented code, and leaves nothing behind."""
 
-import io
+import functools
 import json
-import signal
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from command_line import Run
 
-import lipdb.cli
-
-Run = Callable[..., tuple[int, str, str]]
+import lipdb
 
 
 @pytest.fixture
-def run(db: lipdb.Database, own_places: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+def run(invoke: Run, db: lipdb.Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run a command in a folder of its own: exit code, standard output, standard error."""
     monkeypatch.chdir(tmp_path)
-    handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
-
-    def run(*args: str, stdin: bytes = b"") -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["lipdb", "--db", str(own_places / "shipped.db"), *args])
-        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(stdin)))
-        code = 0
-        try:
-            lipdb.cli.main()
-        except SystemExit as done:
-            code = int(done.code or 0)
-        finally:
-            for number, handler in handlers.items():
-                signal.signal(number, handler)
-        return code, *capsys.readouterr()
-
-    return run
+    return functools.partial(invoke, "--db", db.store.where)
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,12 @@
 """The conformance kit finds the mistakes that people make in the folder of a language, and says where."""
 
+import functools
 import json
 import shutil
-import sys
 
 import pytest
 from shared_tables import SHIPPED, copy_shared_tables
 
-from lipdb.cli import main
 from lipdb.errors import InputError, PhonesetError
 from lipdb.languages.conformance import check_language, tidy_language
 
@@ -303,19 +302,9 @@ def test_a_language_or_a_folder_that_is_not_there_is_one_line(folder, base):
 
 
 @pytest.fixture
-def command(base, folder, monkeypatch, capsys):
+def command(invoke, base, folder):
     """Run ``lipdb language check xx`` on the folder: exit code, output, errors."""
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["lipdb", "--phonesets", str(base), "language", "check", "xx", str(folder), *words])
-        code = 0
-        try:
-            main()
-        except SystemExit as done:
-            code = int(done.code or 0)
-        return code, *capsys.readouterr()
-
-    return run
+    return functools.partial(invoke, "--phonesets", base, "language", "check", "xx", folder)
 
 
 def test_the_command_ends_with_0_when_there_are_only_notes(folder, command, monkeypatch):

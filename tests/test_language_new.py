@@ -1,12 +1,11 @@
 """A thirteenth language: its folder is made from a voice and a text, checked, corrected as text, and spoken."""
 
+import functools
 import json
-import sys
 
 import pytest
 from shared_tables import SHIPPED, copy_shared_tables, copy_workspace
 
-from lipdb.cli import main
 from lipdb.curated.folder import read_folder
 from lipdb.errors import InputError, PhonesetError
 from lipdb.languages.conformance import check_language
@@ -255,21 +254,11 @@ def test_a_voice_that_espeak_lacks_is_refused_with_those_near():
 
 
 @pytest.fixture
-def lipdb(tmp_path, monkeypatch, capsys):
+def lipdb(invoke, tmp_path, monkeypatch):
     """Run ``lipdb`` on a database and a folder of curated text of its own: exit code, output, errors."""
     workspace = copy_workspace(tmp_path / "text")
     monkeypatch.setenv("LIPDB_AUTHOR", "anna")
-
-    def run(*words):
-        monkeypatch.setattr(sys, "argv", ["lipdb", "--db", str(tmp_path / "a.db"), "--phonesets", str(workspace), *map(str, words)])
-        code = 0
-        try:
-            main()
-        except SystemExit as done:
-            code = int(done.code or 0)
-        return code, *capsys.readouterr()
-
-    return run
+    return functools.partial(invoke, "--db", tmp_path / "a.db", "--phonesets", workspace)
 
 
 def test_from_nothing_to_a_speaking_character(lipdb, tmp_path):
@@ -306,14 +295,11 @@ def test_from_nothing_to_a_speaking_character(lipdb, tmp_path):
     assert film.stat().st_size > 1000
 
 
-def test_the_text_may_come_from_a_pipe_and_needs_a_source(lipdb, tmp_path, monkeypatch):
+def test_the_text_may_come_from_a_pipe_and_needs_a_source(lipdb, tmp_path):
     code, _, err = lipdb("language", "new", "pl", "--from-espeak", "pl", "--text", "-")
     assert (code, err.startswith("lipdb: whose text is it?")) == (2, True)
-    file = tmp_path / "polish.txt"
-    file.write_bytes(TEXTS["pl"].encode("utf-8"))
-    with file.open() as piped:
-        monkeypatch.setattr(sys, "stdin", piped)
-        code, out, err = lipdb("language", "new", "pl", "--from-espeak", "pl", "--text", "-", "--source", "user", "-o", tmp_path / "own")
+    words = ("language", "new", "pl", "--from-espeak", "pl", "--text", "-", "--source", "user", "-o", tmp_path / "own")
+    code, out, err = lipdb(*words, stdin=TEXTS["pl"].encode("utf-8"))
     assert code == 0, err
     assert out.startswith("phone\tlabels\tcommon\tconfidence\theard\texample\treview\n")
     assert (tmp_path / "own" / "pl" / "sentences.tsv").is_file()

@@ -8,31 +8,19 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from store_cases import CURVES, DATABASES, TEXT
 
-from lipdb.cli import main
 from lipdb.curated.folder import read_folder, write_folder
 from lipdb.store import Store
 
-DATABASES = Path(__file__).parent / "data" / "databases"
-TEXT = DATABASES / "text"
-CURVES = "curves/facefx.tsv"
-
 
 @pytest.fixture
-def lipdb(tmp_path, monkeypatch, capsys):
+def lipdb(invoke, tmp_path, monkeypatch):
     """Run ``lipdb db`` on a database in the test's folder: exit code, output, errors."""
     monkeypatch.setenv("LIPDB_AUTHOR", "anna")
 
     def run(*words: object, text: Path = TEXT) -> tuple[int, str, str]:
-        command = ["lipdb", "--db", str(tmp_path / "a.db"), "--phonesets", str(text), "db", *map(str, words)]
-        monkeypatch.setattr(sys, "argv", command)
-        code = 0
-        try:
-            main()
-        except SystemExit as done:
-            code = int(done.code or 0)
-        printed = capsys.readouterr()
-        return code, printed.out, printed.err
+        return invoke("--db", tmp_path / "a.db", "--phonesets", text, "db", *words)
 
     return run
 

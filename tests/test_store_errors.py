@@ -12,13 +12,12 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 
 import pytest
+from store_cases import CURVES, TEXT
 
 from lipdb.curated.folder import read_folder
 from lipdb.errors import LipdbError, MissingToolError, OutputError, PhonesetError, StoreError
 from lipdb.store import Store, engines
 
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
-CURVES = "curves/facefx.tsv"
 NOBODY = 65534
 
 

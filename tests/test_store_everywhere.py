@@ -8,12 +8,12 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
-from pathlib import Path
 from uuid import uuid4
 
 import pytest
 import sqlalchemy as sa
 from alembic import command
+from store_cases import CURVES, KEY, TEXT
 
 from lipdb.curated.folder import read_folder, write_folder
 from lipdb.errors import ConflictError, SchemaVersionError, StoreError
@@ -21,9 +21,6 @@ from lipdb.store import Store
 from lipdb.store.engines import database_url, make_engine, writing
 from lipdb.store.migrate import alembic_config, schema_findings
 
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
-CURVES = "curves/facefx.tsv"
-KEY = ("aa", "bmp", "PBM")
 SERVER = os.environ.get("LIPDB_TEST_PG")
 
 

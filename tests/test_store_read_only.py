@@ -2,15 +2,13 @@
 
 import sqlite3
 from contextlib import closing
-from pathlib import Path
 
 import pytest
+from store_cases import TEXT
 
 import lipdb
 from lipdb.errors import SchemaVersionError, StoreError
 from lipdb.store import Store
-
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
 
 
 @pytest.fixture

@@ -5,14 +5,13 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
-from pathlib import Path
 
 import pytest
+from store_cases import TEXT
 
 from lipdb.errors import ConflictError
 from lipdb.store import Store
 
-TEXT = Path(__file__).parent / "data" / "databases" / "text"
 ROWS = 3
 SAVES = 8
 

@@ -11,6 +11,7 @@ from alembic import command
 from alembic.script import ScriptDirectory
 from hypothesis import given
 from hypothesis import strategies as st
+from store_cases import CURVES, DATABASES, TEXT
 
 from lipdb.curated.folder import read_folder, write_folder
 from lipdb.curated.schema import TABLES
@@ -20,10 +21,6 @@ from lipdb.store.engines import database_url, make_engine, writing
 from lipdb.store.merge import merge
 from lipdb.store.migrate import alembic_config, schema_findings
 from lipdb.store.tables import OLDER_SCHEMAS, SCHEMA
-
-DATABASES = Path(__file__).parent / "data" / "databases"
-TEXT = DATABASES / "text"
-CURVES = "curves/facefx.tsv"
 
 
 def changed(tmp_path: Path, *rows: tuple[tuple[str, ...], str | None]) -> Path:
