@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Options, json_option, print_json, print_listing
+from lipdb.cli.options import Options, json_option, print_json, print_listing, print_notes
 from lipdb.errors import InputError, UnknownSymbolError
 
 LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
@@ -61,8 +61,7 @@ def phones(options: Options, /, text: str | None, language: str, character: str 
             for phone in schedule.phones
         ]
         print_listing(rows, as_json=as_json)
-        for note in line.notes:
-            click.echo(f"lipdb: {note}", err=True)
+        print_notes(line.notes)
 
 
 def _list_common(options: Options, as_json: bool) -> None:
@@ -105,8 +104,10 @@ def pairs(options: Options, /, text: str, language: str, character: str, as_json
       lipdb pairs "Hello world"
     """
     with options.open() as db:
-        uses = db.pairs(db.say(text, language=language, allow_unknown=True), character=character)
+        line = db.say(text, language=language, allow_unknown=True)
+        uses = db.pairs(line, character=character)
         print_listing([use.to_row() for use in uses], as_json=as_json)
+        print_notes(line.notes)
         missing, gaps = sum(bool(use.missing) for use in uses), sum(use.gap for use in uses)
         click.echo(
             f"{len(uses)} pairs: {missing} without a curve in any table, {gaps} whose curves nobody has drawn or fitted yet", err=True
@@ -130,8 +131,8 @@ def explain(options: Options, /, file: Path, at: float, character: str | None, a
     from lipdb.export.json import made_for
 
     with options.open() as db:
-        line = db.sync(file)
         who, fps = made_for(file)
+        line = db.sync(file)
         causes = db.explain(line, at=at, character=character or who or DEFAULT_CHARACTER, fps=fps or DEFAULT_FPS)
         if as_json:
             print_json([cause.to_json() for cause in causes])

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing, progress_bar
+from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing, print_notes, progress_bar
 from lipdb.errors import DataError
 
 
@@ -125,8 +125,7 @@ def new_language(
         print_json({"language": code, "folder": str(made.folder), "phones": rows, "sentences": made.sentences, "notes": made.notes})
     else:
         print_listing(rows, as_json=False)
-    for note in made.notes:
-        click.echo(f"lipdb: {note}", err=True)
+    print_notes(made.notes)
     review = sum(bool(phone.review) for phone in made.phones)
     click.echo(f"{made.folder}: {len(rows)} phones ({review} to review), {made.sentences} sentences", err=True)
     load = f"lipdb db load {folder}" if whole else f"copy {made.folder} into your folder of curated text"
@@ -211,8 +210,7 @@ def show_reuse(options: Options, /, code: str, donors: tuple[str, ...], corpora:
             text = frequency_of(db, code, corpus)
             if text.frequency.counts:
                 texts[text.name] = text.frequency
-            for note in text.notes:
-                click.echo(f"lipdb: {text.name}: {note}", err=True)
+            print_notes(f"{text.name}: {note}" for note in text.notes)
         found = reuse(db.records, code, tuple(dict.fromkeys(donors)), texts)
     if pairs:
         print_listing([pair.to_row() for pair in found.pairs], as_json=as_json)

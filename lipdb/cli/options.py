@@ -101,6 +101,12 @@ def progress_bar() -> Iterator[None]:
             yield
 
 
+def print_notes(notes: Iterable[str]) -> None:
+    """Print what a person should know of the result, a line each, on standard error."""
+    for note in notes:
+        click.echo(f"lipdb: {note}", err=True)
+
+
 def print_json(data: Any) -> None:
     """Print *data* for a program to read."""
     click.echo(json.dumps(data, ensure_ascii=False, indent=2))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lipdb.cli.options import F, Options, json_option, print_json, print_listing, progress_bar
+from lipdb.cli.options import F, Options, json_option, print_json, print_listing, print_notes, progress_bar
 
 if TYPE_CHECKING:
     from lipdb.database import Database
@@ -98,8 +98,7 @@ def _check(db: Database, *, character: str, outputs: tuple[Path, ...], **_: Any)
 
 def _deliver(db: Database, line: Line, *, character: str, fps: float, outputs: tuple[Path, ...], as_json: bool) -> None:
     """Say what is to be known of the line, then write every output, or show the schedule when there is none."""
-    for note in line.notes:
-        click.echo(f"lipdb: {note}", err=True)
+    print_notes(line.notes)
     if not outputs:
         _show(line.schedule, as_json=as_json)
         return
