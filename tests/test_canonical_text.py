@@ -32,6 +32,7 @@ KINDS = {
     "0.5": st.floats(0, 1e6).map(str),
     "7": st.integers(0, 999).map(str),
     "2026-11-22T00:00:00Z": times,
+    "mesh.glb": st.sampled_from(["built:robin", "mesh.glb", "pictures"]),
 }
 
 

@@ -12,6 +12,8 @@ from lipdb.characters.character import Character
 from lipdb.characters.links import closing_shapes, identity_links, through_links
 from lipdb.characters.own_links import bend_drawn
 from lipdb.curated.folder import read_folder
+from lipdb.curated.schema import table_of
+from lipdb.curated.tsv import canonical_row
 from lipdb.curves.curve import Curve
 from lipdb.curves.through import Link, carried
 from lipdb.errors import InputError, MeshError, PhonesetError
@@ -146,12 +148,23 @@ def test_a_character_that_can_not_be_is_refused(name, changes, error, message):
 
 @pytest.mark.parametrize(
     ("drawing", "message"),
-    [("built:dragon", "no such face comes with lipdb; there are crab, flat, robin"), ("mesh.glb", "mesh.glb is missing; add it again")],
+    [
+        ("built:dragon", "no such face comes with lipdb; there are crab, flat, robin"),
+        ("mesh.glb", "mesh.glb is missing; copy it from where"),
+    ],
 )
 def test_a_drawing_that_is_not_there_is_named(tmp_path, drawing, message):
     ann = Character.from_records(records(shapes="face", drawing=drawing), "ann", folder=tmp_path)
     with pytest.raises(MeshError, match=message):
         _ = ann.mesh
+
+
+@pytest.mark.parametrize("drawing", ["foo", "built:", "built:../robin", "../mesh.glb", "pictures/x"])
+def test_a_character_that_draws_nothing_is_refused_in_its_row(drawing):
+    table = table_of("characters/ann/character.tsv")
+    row = {"character": "ann", "pose_set": "face", "drawing": drawing, "title": "Ann", "source": "user"}
+    with pytest.raises(ValueError, match="is nothing to draw; write built:NAME, mesh.glb or pictures"):
+        canonical_row(table, row)
 
 
 def test_the_shipped_characters_have_meshes_with_all_the_shapes_their_links_lead_to(shipped):

@@ -88,7 +88,7 @@ class Character:
     def _own(self, what: str) -> Path:
         if self.folder is None or not (self.folder / what).exists():
             where = self.folder / what if self.folder else what
-            raise MeshError(f"character {self.name!r}: {where} is missing; add it again with `lipdb character add`")
+            raise MeshError(f"character {self.name!r}: {where} is missing; copy it from where it was added, or add it by another name")
         return self.folder / what
 
 

@@ -35,6 +35,12 @@ def _name(cell: str) -> str:
     return cell
 
 
+def _drawing(cell: str) -> str:
+    if not re.fullmatch(r"built:\w+|mesh\.glb|pictures", cell):
+        raise ValueError(f"{cell!r} is nothing to draw; write built:NAME, mesh.glb or pictures")
+    return cell
+
+
 def _number(cell: str) -> str:
     try:
         value = float(cell)
@@ -227,7 +233,7 @@ TABLES: tuple[Table, ...] = (
         "characters/{character}/character.tsv",
         _columns(
             "character pose_set shapes? drawing title " + _SOURCED,
-            character=_name, pose_set=_name, shapes=_name, drawing=_name, source=_name,
+            character=_name, pose_set=_name, shapes=_name, drawing=_drawing, source=_name,
         ),
         ("character",),
     ),
