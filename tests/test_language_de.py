@@ -23,6 +23,9 @@ import lipdb
         ("Qualm", "kg f aa l bmp"),
         ("Mädchen", "bmp eh d kg ah d"),
         ("Chance", "sh aa z ah"),
+        ("Journalist", "sh w ah d aa l ih z d"),
+        ("die Orange", "d ih ow kg aa d sh ah"),
+        ("Clown,", "kg l aw d"),
     ],
 )
 def test_words_look_as_a_phonetician_expects(db: lipdb.Database, text: str, expected: str):

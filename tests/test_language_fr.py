@@ -22,7 +22,9 @@ import lipdb
         ("beau", "bmp ow"),
         ("porte", "bmp ao kg d"),
         ("brun", "bmp kg ao"),
-        ("parking", "bmp aa kg ih d"),
+        ("parking", "bmp aa kg kg ih d"),
+        ("le dos", "l ao d ow"),
+        ("week-end", "w ih kg eh d d"),
     ],
 )
 def test_words_look_as_a_phonetician_expects(db: lipdb.Database, text: str, expected: str):
@@ -34,6 +36,7 @@ def test_words_look_as_a_phonetician_expects(db: lipdb.Database, text: str, expe
     [
         ("huit", "ɥ i t"), ("lui", "l ɥ i"), ("nuage", "n ɥ a ʒ"), ("tu as", "t y a"), ("montagne", "m ɔ̃ t a ɲ"), ("agneau", "a n j o"),
         ("pâte", "p ɑ t"), ("patte", "p a t"), ("pays", "p ɛ i"), ("yeux", "j ø"), ("un parfum", "œ̃ p a ʁ f œ̃"),
+        ("Rythme !", "ʁ i t m"), ("d’enthousiasme", "d ɑ̃ t u z j a s m"), ("l'email", "l i m ɛ l"),
     ],
 )  # fmt: skip
 def test_words_have_their_phones(db: lipdb.Database, text: str, expected: str):

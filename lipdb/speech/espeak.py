@@ -48,6 +48,7 @@ SENTENCE_END = re.compile(
     r"(?<=[^\W\d_]{3})(?<!\betc)(?<!\best)(?<!\binc)(?<!\bltd)(?<!\bdept)(?<!approx)"
     r"(?<!\bруб)(?<!\bкоп)(?<!\bтыс)(?<!\bмлн)(?<!\bмлрд)(?<!\bстр)(?<!\bтел)\.(?=[\"'”’»)]? [a-zß-ÿа-яё])"
 )
+ELIDED = re.compile(r"^\w{1,2}['’](?=\w)")
 WRITTEN = re.compile(r"\S+")
 SIGNS = "\"'“”‘’«»()[]{}<>.,;:!?¡¿。।॥،؛؟۔…–—-"
 EDGE = re.compile(r"^[\s\"'“”‘’«»()\[\]{}<>.,;:!?¡¿…–—-]+|[\s\"“”«»()\[\]{}<>.,;:!?。।॥،؛؟۔…–—-]+$")
@@ -175,10 +176,15 @@ def _phone(label: str, symbol: str, word: int) -> Phone:
 
 
 def respelt(text: str, readings: Mapping[str, str]) -> str:
-    """*text* with every word that *readings* has, in small letters, spelt as they say, the signs around it kept."""
+    """*text* with every word that *readings* has, in small letters, spelt as they say, the signs around it kept.
+
+    A word may be elided into: "l'enthousiasme" is "enthousiasme".
+    """
     tokens = text.split(" ")
     for place, token in enumerate(tokens):
         word = token.strip(SIGNS)
+        if ("'" in word or "’" in word) and word.lower() not in readings:
+            word = ELIDED.sub("", word)
         if (reading := readings.get(word.lower())) is not None:
             tokens[place] = token.replace(word, reading, 1)
     return " ".join(tokens)
