@@ -11,8 +11,6 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import BinaryIO, NamedTuple
 
-import numpy as np
-
 from lipdb.coverage.findings import LONGEST_LINE
 
 BLOCK = 1 << 18
@@ -63,11 +61,13 @@ def _rest_of_line(blocks: Iterator[bytes]) -> bytes:
 
 def _shortened(raw: bytes) -> bytes:
     """*raw* with every line that is too long cut off one byte after the longest that is read."""
-    if len(raw) <= LONGEST_LINE:
-        return raw
-    edges = np.flatnonzero(np.frombuffer(raw, np.uint8) == ord("\n"))
-    longest = np.diff(edges, prepend=-1, append=len(raw)).max() - 1
-    return _OVERLONG.sub(rb"\1", raw) if longest > LONGEST_LINE else raw
+    start = 0
+    while len(raw) - start > LONGEST_LINE:
+        edge = raw.rfind(b"\n", start, start + LONGEST_LINE + 1)
+        if edge < 0:
+            return _OVERLONG.sub(rb"\1", raw)
+        start = edge + 1
+    return raw
 
 
 def cut(blocks: Iterable[bytes], size: int) -> Iterator[Piece]:

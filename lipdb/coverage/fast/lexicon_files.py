@@ -79,8 +79,18 @@ def answer_files(folder: Path) -> list[Path]:
 
 
 def _tables(folder: Path) -> list[tuple[Path, pa.Table]]:
-    """The files of *folder* that can be read, and what is in them."""
-    return [(file, table) for file in answer_files(folder) if (table := _read(file)) is not None]
+    """The files of *folder* that can be read, and what is in them; the oldest first.
+
+    So words stand, and are numbered, about as they were first met: those that come often are together in memory, as they are used.
+    """
+    return [(file, table) for file in sorted(answer_files(folder), key=_time) if (table := _read(file)) is not None]
+
+
+def _time(file: Path) -> float:
+    try:
+        return file.stat().st_mtime
+    except OSError:  # Another process joined it with others.
+        return 0
 
 
 def _once(tables: list[pa.Table]) -> pa.Table:
@@ -103,7 +113,6 @@ def _read(file: Path) -> pa.Table | None:
 
 def _write(table: pa.Table, folder: Path) -> Path | None:
     """Write *table* into *folder*; the file, if it could be done."""
-    table = table.sort_by("word")
     words = table["word"].combine_chunks()
     digest = hashlib.sha256(b"".join(bytes(buffer) for buffer in words.buffers() if buffer))
     with contextlib.suppress(OSError, OutputError):
