@@ -55,6 +55,25 @@ def test_every_pose_is_drawn_at_full_weight(db) -> None:
     assert len(shown.get("image")) == len(db.pose_set("facefx").poses)
 
 
+def test_a_pose_is_drawn_again_when_its_shapes_change_and_else_kept(db, tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("LIPDB_CACHE", str(tmp_path / "cache"))
+    poses = len(db.pose_set("facefx").poses)
+
+    def kept() -> set[str]:
+        shown = section("Poses", characters_name="robin")
+        assert len(shown.get("image")) == poses
+        return {file.name for file in (tmp_path / "cache" / "gallery").iterdir()}
+
+    first = kept()
+    assert len(first) == poses
+    with db.edit(author="bob") as edit:
+        edit.put("characters/robin/links.tsv", {"pose": "open", "shape": "open", "gain": "0.5", "combine": "sum", "source": "user"})
+    assert len(kept() - first) == 1
+    (tmp_path / "cache").rename(tmp_path / "gone")
+    (tmp_path / "cache").write_text("no folder")
+    section("Poses", characters_name="flat")
+
+
 def test_rules_say_whom_they_count_for(db) -> None:
     shown = section("Rules", characters_name="crab")
     assert "the pose set crab: they count for crab," in words(shown)
@@ -105,8 +124,8 @@ def test_a_zip_of_pictures_is_added(db) -> None:
 
 
 BAD = [
-    ("bob", [("a.glb", b"glTF nonsense")], "mesh.glb: "),
-    ("bob", [("a.glb", Builder(()).glb())], "mesh.glb: has no morph targets"),
+    ("bob", [("a.glb", b"glTF nonsense")], "a.glb: "),
+    ("bob", [("a.glb", Builder(()).glb())], "a.glb: has no morph targets"),
     ("bob", [("a.glb", Builder(("nose", "ear")).glb())], "none of the known sets"),
     ("bob", [("a.zip", packed([("A.svg", b" " * 100_000_000)]))], "unpacks to more than 64 MB"),
     ("bob", [("A.svg", SVG.replace(b"<path", b"<script/><path"))], "element script, which is more than a picture"),

@@ -45,7 +45,8 @@ def ask_layer(place: Place) -> Place:
         CHARACTER: f"{names[CHARACTER]} only, in every language",
     }
     hidden = overriding(db.records, place)
-    but = f"; not {', '.join(hidden)}, which have curves of their own" if hidden else ""
+    own = "which has curves of its own" if len(hidden) == 1 else "which have curves of their own"
+    but = f"; not {', '.join(name.partition(':')[2] for name in hidden)}, {own}" if hidden else ""
     reach.caption(f":material/layers: Saved for {whom[place.kind]}{but} (layer `{place.layer}`).")
     return place
 

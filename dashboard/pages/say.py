@@ -148,7 +148,14 @@ def show(line: Line, character: str, beside: Beside | None) -> None:
 with shown_errors():
     line, character, beside = ask()
     if line is None:
-        st.info("Write a sentence, or upload a recording's phones (a Praat TextGrid), to see a face speak.", icon=":material/keyboard:")
+        if st.session_state["say_source"] == "Recording":
+            st.info(
+                "Upload the phones of a recording, and the recording itself to hear it. An aligner, such as the Montreal Forced Aligner, "
+                "writes them as a Praat TextGrid.",
+                icon=":material/upload_file:",
+            )
+        else:
+            st.info("Write a sentence to see a face speak.", icon=":material/keyboard:")
         st.stop()
 for note in line.notes:
     st.caption(f":material/info: {note}")

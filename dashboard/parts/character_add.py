@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import PureWindowsPath
+
 import streamlit as st
 from parts.session import visitor, writable
 from parts.uploads import contents, scratch
 
 from lipdb.characters.add import Added
 from lipdb.characters.uploaded import LARGEST, lay_out
-from lipdb.errors import InputError
+from lipdb.errors import InputError, LipdbError
 
 ADDED = "characters_added"
 
 
-def add_form() -> None:
-    """The form, and what came of it: every link with how certain it is. Raises `LipdbError`."""
+def add_form(look_at: Callable[[str], None]) -> None:
+    """The form, and what came of it: every link with how certain it is; a button calls *look_at*. Raises `LipdbError`."""
     if not visitor().editor:
         st.info("You may look, but not add.")
         return
@@ -36,20 +39,33 @@ def add_form() -> None:
             raise InputError("give the character a short name")
         with scratch() as folder, st.spinner("Reading the face"):
             path = lay_out(contents(files), folder)
-            st.session_state[ADDED] = db.add_character(path, name=name.strip(), title=title.strip(), author=author)
+            try:
+                st.session_state[ADDED] = db.add_character(path, name=name.strip(), title=title.strip(), author=author)
+            except LipdbError as error:
+                # The file's own name, not that of the copy.
+                error.args = (str(error).replace(path.name, PureWindowsPath(files[0].name).name[:60]),) if path.is_file() else error.args
+                raise
         st.rerun()
     if ADDED in st.session_state:
-        _tell(st.session_state[ADDED])
+        _tell(st.session_state[ADDED], look_at)
 
 
-def _tell(added: Added) -> None:
+def _tell(added: Added, look_at: Callable[[str], None]) -> None:
     """What a character was taken for, and what somebody should look at."""
-    st.success(f"{added.name} is here. Its shapes are named as those of {added.shape_set} ({added.match.share:.0%} of what speech needs).")
+    said, button = st.columns([3, 1], vertical_alignment="center")
+    said.success(
+        f"{added.name} is here. Its shapes are named as those of {added.shape_set} ({added.match.share:.0%} of what speech needs).",
+        icon=":material/check:",
+    )
+    button.button(
+        f"Look at {added.name}", key="characters_look", icon=":material/face:", on_click=look_at, args=(added.name,), width="stretch"
+    )
     if added.match.doubtful or added.match.missing:
         doubtful, missing = len(added.match.doubtful), len(added.match.missing)
-        st.warning(f"{doubtful} of its shapes are doubtful, {missing} were not found: choose it above and look at its links.")
+        st.warning(f"{doubtful} of its shapes are doubtful, {missing} were not found: look at its links.")
     marks = {"sure": "", "doubtful": "⚠ doubtful", "missing": "✗ not found"}
     rows = [
         {"": marks[row["certainty"]], **{column: row[column] for column in ("pose", "shape", "gain", "comment")}} for row in added.rows()
     ]
-    st.dataframe(sorted(rows, key=lambda row: row[""] == ""), hide_index=True)
+    rows.sort(key=lambda row: row[""] == "")
+    st.dataframe(rows, hide_index=True, column_order=[name for name in rows[0] if name or rows[0][""]])

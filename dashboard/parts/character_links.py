@@ -10,7 +10,7 @@ from parts.character_bends import bends_editor
 from parts.lines import spoken
 from parts.rows import Cells, Held, Rows, hold, save_button, table, text
 from parts.saved import show_saved
-from parts.session import database
+from parts.session import database, visitor
 from parts.stage import stage
 
 from lipdb.characters.exercise import raised
@@ -43,7 +43,8 @@ def links_editor(name: str, sentence: str, language: str) -> str:
             rows = {}
             st.error(str(error), icon=":material/error:")
         count = len(rows)
-        st.caption(f"{count} row{'s' * (count != 1)} to save." if count else "Double-click a cell to change it; the face follows.")
+        if visitor().editor:
+            st.caption(f"{count} row{'s' * (count != 1)} to save." if count else "Double-click a cell to change it; the face follows.")
         show_saved(key, key=key)
         save_button(key, held, rows, note=f"Links of {name}")
     with right:

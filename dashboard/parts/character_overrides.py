@@ -19,6 +19,9 @@ from lipdb.errors import LipdbError
 from lipdb.languages.examples import Examples
 from lipdb.performance import Performance
 
+TICKED = "characters_ticked"
+"""Where a visitor's ticks stay while other pages are shown: the character, and the rows."""
+
 
 def overrides_table(name: str, sentence: str, language: str) -> None:
     """The table, what was chosen in it as curves and as faces, and the buttons that take it away. Raises `LipdbError`."""
@@ -29,15 +32,25 @@ def overrides_table(name: str, sentence: str, language: str) -> None:
     if not found:
         st.info("This character has nothing of its own. In Curves, save to the layer of this character.")
         return
+    of, before = st.session_state.get(TICKED, ("", set()))
+    ticked = [row for row, one in enumerate(found) if of == name and (one.table, one.key) in before]
     picked = st.dataframe(
         [one.to_row() for one in found],
         hide_index=True,
         on_select="rerun",
         selection_mode="multi-row",
         key=f"characters_overrides_{name}_{language}_{seen}",
-        column_config={"own": "this character's value", "inherited": "inherited value", "layer": "from"},
+        selection_default={"selection": {"rows": ticked}},
+        column_config={
+            "what": st.column_config.TextColumn(width=70),
+            "name": st.column_config.TextColumn(width=140),
+            "own": st.column_config.TextColumn("this character's value", width=280),
+            "inherited": st.column_config.TextColumn("inherited value", width=280),
+            "layer": st.column_config.TextColumn("from", width=120),
+        },
     )
     chosen = [found[row] for row in picked.selection.rows]
+    st.session_state[TICKED] = name, {(one.table, one.key) for one in chosen}
     _resets(name, found, chosen, seen)
     if not chosen:
         st.caption("Tick rows to see and hear them against what would be inherited.")

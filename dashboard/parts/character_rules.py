@@ -114,11 +114,13 @@ def _rows(records: Records, pose_set: str, poses: Cells, thresholds: Cells, whol
 
 def _pose_columns() -> dict[str, Any]:
     return {
-        "pose": st.column_config.TextColumn("Pose", disabled=True),
-        "priority": st.column_config.NumberColumn("Priority", min_value=0, step=1),
-        "speed": st.column_config.NumberColumn("Speed limit", min_value=0.1, step=0.5, help="Largest change of the weight in a second."),
-        "must_reach": st.column_config.CheckboxColumn("Must reach", help="Its peaks hold whatever happens, as closed lips do."),
-        "description": st.column_config.TextColumn("What it is", disabled=True),
+        "pose": st.column_config.TextColumn("Pose", disabled=True, width=95),
+        "priority": st.column_config.NumberColumn("Priority", min_value=0, step=1, width=80, help="Empty: it yields to all that have one."),
+        "speed": st.column_config.NumberColumn(
+            "Speed limit", min_value=0.1, step=0.5, width=95, help="Largest change of the weight in a second."
+        ),
+        "must_reach": st.column_config.CheckboxColumn("Must reach", width=90, help="Its peaks hold whatever happens, as closed lips do."),
+        "description": st.column_config.TextColumn("What it is", disabled=True, width=200),
     }
 
 

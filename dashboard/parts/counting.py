@@ -59,7 +59,7 @@ def _row(corpus: Corpus) -> dict[str, Any]:
         "mode": scan.mode,
         "state": corpus.state,
         **totals,
-        "counted": scan.time,
+        "counted (UTC)": scan.time.replace("T", " ")[:16],
     }
 
 

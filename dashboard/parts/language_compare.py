@@ -12,7 +12,7 @@ import streamlit as st
 from parts.language_work import told
 from parts.lines import state
 from parts.reach import only_from_here
-from parts.session import database, writable
+from parts.session import database, visitor, writable
 
 from lipdb.curated.tsv import Records
 from lipdb.curated.zipped import read_zip
@@ -225,7 +225,8 @@ def _result(mine: Merging) -> None:
         changes = changed_rows(database().records, chosen)
         st.write(f"{_rows_of(changes)} of the database would change.")
         note = st.text_input("Why (for the history)", key="languages_merge_note", persist_state="session", max_chars=200)
-        if st.button("Save to the database", type="primary", disabled=not changes, key="languages_merge_rows", icon=":material/database:"):
+        locked = not changes or not visitor().editor
+        if st.button("Save to the database", type="primary", disabled=locked, key="languages_merge_rows", icon=":material/database:"):
             with told():
                 db, author = writable()
                 number = save_rows(changes, db.store, author=author, note=note or "Merge two versions", seen=mine.seen)
@@ -235,7 +236,8 @@ def _result(mine: Merging) -> None:
         folder = _workspace()
         changes = changed_rows(mine.text, chosen)
         st.write(f"{_rows_of(changes)} of the workspace `{folder}` would change.")
-        if st.button("Save to the workspace", disabled=not changes or not mine.text, key="languages_merge_text", icon=":material/folder:"):
+        locked = not changes or not mine.text or not visitor().editor
+        if st.button("Save to the workspace", disabled=locked, key="languages_merge_text", icon=":material/folder:"):
             with told():
                 writable()
                 files = save_merged(changes, folder, seen=mine.text)

@@ -20,6 +20,8 @@ from lipdb.store.cells import flat
 
 MINUTES = 5
 """What an artist needs for a pair."""
+LONG = 100
+"""Letters of a finding that a page of 1280 has room for."""
 NOTHING = "none: it is unlike all others"
 
 
@@ -172,10 +174,12 @@ def show_checked(checked: Checked, name: str, *, key: str) -> None:
             column_config={
                 "kind": st.column_config.TextColumn("", width=70),
                 "table": st.column_config.TextColumn(width=110),
-                "row": st.column_config.TextColumn(width=140),
-                "what": st.column_config.TextColumn(width=800),
+                "row": st.column_config.TextColumn(width=120),
+                "what": st.column_config.TextColumn(width=690),
             },
         )
+        if rows["what"].str.len().max() > LONG:
+            st.caption("Double-click a row to read all of it.")
 
 
 def step_save(mine: Work) -> None:

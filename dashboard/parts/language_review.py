@@ -49,7 +49,6 @@ def _table(mine: Work) -> None:
             "second": " ".join(one.phone.proposal.second),
             "example": one.example,
             "heard": one.phone.count,
-            "why": one.phone.review or one.phone.reason,
         }
         for one in entries
     ]
@@ -69,14 +68,13 @@ def _table(mine: Work) -> None:
         selection_mode="single-row",
         height=min(38 + 35 * len(rows), 560),
         column_config={
-            "": st.column_config.TextColumn(width=80),
+            "": st.column_config.TextColumn(width=75),
             "phone": st.column_config.TextColumn(width=60),
-            "common": st.column_config.TextColumn(width=80, help="The classes of sounds that look alike to which it is mapped"),
-            "sure": st.column_config.ProgressColumn(min_value=0, max_value=1, format="percent", width=90, color="blue"),
-            "second": st.column_config.TextColumn("2nd choice", width=80),
-            "example": st.column_config.TextColumn(width=110),
+            "common": st.column_config.TextColumn(width=75, help="The classes of sounds that look alike to which it is mapped"),
+            "sure": st.column_config.ProgressColumn(min_value=0, max_value=1, format="percent", width=80, color="blue"),
+            "second": st.column_config.TextColumn("2nd choice", width=75),
+            "example": st.column_config.TextColumn(width=100),
             "heard": st.column_config.NumberColumn(width=60, help="How often the voice said it in the text"),
-            "why": st.column_config.TextColumn(width=420),
         },
     )
 

@@ -18,6 +18,8 @@ from lipdb.errors import InputError
 from lipdb.schedule import SILENCE
 
 NOBODY = "the language itself"
+WIDE = (60, 50, 80, 90, 100, 80, 75)
+"""Pixels of the columns of phones: together what a page of 1280 has room for."""
 
 
 def show_languages() -> None:
@@ -62,7 +64,7 @@ def _phones(code: str, character: str | None) -> None:
     db = database()
     mapped = list(db.phoneset(code, character=character))
     left, right = st.columns([3, 2], gap="medium")
-    columns = ("phone", "ipa", "common", "layer", "example", "origin", "source", "author", "comment")
+    columns = ("phone", "ipa", "common", "layer", "example", "origin", "source")
     rows = pd.DataFrame([{name: one.to_row()[name] for name in columns} for one in mapped])
     names = [one.phone for one in mapped]
     key, chosen = f"languages_phones_{code}", f"languages_phone_of_{code}"
@@ -73,9 +75,7 @@ def _phones(code: str, character: str | None) -> None:
         height=560,
         on_select=lambda: picked(key, names, chosen),
         selection_mode="single-row",
-        column_config={"phone": st.column_config.TextColumn(width=60), "ipa": st.column_config.TextColumn(width=60)}
-        | {name: st.column_config.TextColumn(width=90) for name in ("common", "layer", "origin", "source", "author")}
-        | {"comment": st.column_config.TextColumn(width=600)},
+        column_config={name: st.column_config.TextColumn(width=wide) for name, wide in zip(columns, WIDE, strict=True)},
     )
     with right:
         one, two = st.columns([1, 2])

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import streamlit as st
-from parts.session import database, visitor
+from parts.session import database, in_words, visitor
 from parts.stage import stage
 
 from lipdb.curated.tsv import Key, Row
@@ -85,13 +85,13 @@ def hear(db: Database, mark: str, text: str, language: str, *, key: str) -> None
             while len(kept) > MOST_HEARD:
                 kept.pop(next(iter(kept)))
     except LipdbError as error:
-        st.caption(f":material/error: {error}")
+        st.caption(f":material/error: {in_words(error)}")
         return
     made = kept[asked]
     stage([made], key=key, compact=True)
     if made.line is not None:
-        said = " ".join(f"{phone.symbol} → {' '.join(phone.common)}" if not phone.silent else "·" for phone in made.line.schedule.phones)
-        st.caption(f"**{text}** is said {said.strip('· ')}")
+        said = ", ".join(f"{phone.symbol} → {' '.join(phone.common)}" for phone in made.line.schedule.phones if not phone.silent)
+        st.caption(f"**{text}** is said {said}")
         for note in made.line.notes:
             st.caption(f":material/info: {note}")
 
@@ -118,4 +118,4 @@ def told() -> Iterator[None]:
     try:
         yield
     except LipdbError as error:
-        st.error(str(error), icon=":material/error:")
+        st.error(in_words(error), icon=":material/error:")

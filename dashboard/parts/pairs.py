@@ -11,7 +11,7 @@ import altair as alt
 import pandas as pd
 import streamlit as st
 from parts.lines import spoken
-from parts.session import database, shown_errors
+from parts.session import database, in_words, shown_errors
 from streamlit.delta_generator import DeltaGenerator
 
 from lipdb.curves.draft import KINDS, Place
@@ -150,7 +150,7 @@ def _pairs_of_word(chosen: Choice) -> None:
     try:
         pairs = pairs_in_order(spoken(chosen.word, chosen.language))
     except LipdbError as error:
-        st.caption(f":material/error: {error}")
+        st.caption(f":material/error: {in_words(error)}")
         return
     names = {f"{left}-{right}": (left, right) for left, right in pairs}
     st.session_state["curves_of_word"] = chosen.pair if chosen.pair in names else None
@@ -167,6 +167,7 @@ def _matrix(language: str, character: str) -> None:
     """Every pair by where its curves come from; a click chooses one."""
     with shown_errors():
         uses = every_pair(language, character, database().store.revision)
+    st.caption("Click a pair to edit its curves; the dot marks the one that is open.")
     event = st.altair_chart(_matrix_chart(uses, choice()), key="curves_cells", on_select="rerun", selection_mode="pair", width="content")
     cells = event.selection.get("pair") or []
     if cells:

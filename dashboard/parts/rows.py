@@ -93,6 +93,7 @@ def table(held: Held, which: str, columns: Mapping[str, Any], *, rows: Literal["
         hide_index=True,
         disabled=not visitor().editor,
         key=held.widget(which),
+        placeholder="",
     )
     plain = edited.astype(object).where(edited.notna(), None).to_dict("records")
     held.edited[which] = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -112,6 +113,11 @@ def greet() -> None:
     warn_of_upgrade()
 
 
+def in_words(error: LipdbError) -> str:
+    """*error* for people before a page: what are options of the command line are words here."""
+    return re.sub(r"(?<!\S)--(?=[a-z])", "", str(error))
+
+
 @contextmanager
 def shown_errors() -> Iterator[None]:
     """Show an error that a visitor can mend as a message, and stop the page there."""
@@ -125,7 +131,7 @@ def shown_errors() -> Iterator[None]:
         )
         st.stop()
     except LipdbError as error:
-        st.error(str(error), icon=":material/error:")
+        st.error(in_words(error), icon=":material/error:")
         st.stop()
 
 

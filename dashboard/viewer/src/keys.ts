@@ -37,6 +37,7 @@ class Editor {
   private readonly rest: HTMLButtonElement;
   private readonly watcher: ResizeObserver;
   private readonly playhead = document.createElement("div");
+  private readonly below: HTMLButtonElement;
   private readonly follower = (event: Event): void => this.follow((event as CustomEvent<{ stage: string; time: number }>).detail);
   private readonly listener = (event: KeyboardEvent): void => this.key(event);
 
@@ -54,12 +55,12 @@ class Editor {
       return made;
     };
     const snap = toggle("Snap", "Keep keys on a grid of 0.05; hold Alt to move freely", (on) => (this.snapping = on));
-    const onion = toggle("Below", "Show the curve of the layer below, dashed", (on) => this.lanes.classList.toggle("plain", !on));
-    this.rest = toggle("At rest", "Show the poses that this pair leaves at rest", (on) => this.lanes.classList.toggle("moving", !on));
+    this.below = toggle("", "", (on) => this.lanes.classList.toggle("plain", !on));
+    this.rest = toggle("Poses at rest", "Show the poses that this pair leaves at rest", (on) => this.lanes.classList.toggle("moving", !on));
     const bar = document.createElement("div");
     bar.className = "bar";
     this.hint.className = "hint";
-    bar.append(this.undo, this.redo, snap, onion, this.rest, this.all);
+    bar.append(this.undo, this.redo, snap, this.below, this.rest, this.all);
     this.head.className = "head";
     this.playhead.className = "playhead";
     this.playhead.hidden = true;
@@ -114,6 +115,8 @@ class Editor {
     this.token = data.given?.token ?? "";
     this.all.textContent = data.pair ? "Reset pair" : "All straight";
     this.all.title = data.pair ? "Leave every pose to the layer below" : "Let every weight through as it is";
+    this.below.textContent = data.pair ? "Layer below" : "Straight";
+    this.below.title = data.pair ? "Show the curve of the layer below, dashed" : "Show the straight line, dashed";
     this.rest.hidden = !data.pair;
     [this.past, this.future] = [[], []];
     this.now = copy(Object.fromEntries(data.lanes.map(({ pose, keys }) => [pose, keys])));

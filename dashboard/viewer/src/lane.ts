@@ -123,7 +123,6 @@ export class LaneView {
     this.drawn.setAttribute("points", this.points(ends));
     this.below.setAttribute("points", this.points(below));
     this.root.title = note;
-    this.root.classList.toggle("hidden-by", Boolean(note));
     this.reset.title = `Back to ${from}`;
     this.reset.setAttribute("aria-label", `Reset ${this.pose} to ${from}`);
   }
@@ -135,7 +134,7 @@ export class LaneView {
     this.root.classList.toggle("own", own);
     this.root.classList.toggle("still", !keys.length && !this.lane?.below.length);
     this.reset.hidden = !own || this.events.locked();
-    this.state.textContent = own ? (keys.length ? "" : "zero") : (this.lane?.from ?? "");
+    this.state.textContent = this.lane?.note ? "overridden" : own ? (keys.length ? "" : "zero") : (this.lane?.from ?? "");
     const whole = this.events.holds() ? held(keys) : keys;
     for (const line of [this.line, this.hit]) line.setAttribute("points", this.points(whole.length ? whole : ZERO));
     while (this.handles.length > keys.length) this.handles.pop()?.remove();

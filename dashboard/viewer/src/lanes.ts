@@ -7,6 +7,8 @@ const NARROW = 4; // pixels that a pointer may move and still be a click
 const SHORTEST = 0.02; // seconds of a loop
 const CLOSEST = 0.1; // seconds that fill the lanes
 const MARKED = "#e69f0055";
+const [LEAST, MOST] = [84, 168]; // pixels beside the lanes
+const EDGE = 4; // pixels around names and values
 
 export type Range = [start: number, end: number];
 
@@ -30,7 +32,7 @@ export class Lanes {
   private data: StageData | null = null;
   private rows: Row[] = [];
   private theme: Theme = { ink: "#222", line: "#ccc", accent: "#0072b2", font: "12px sans-serif", dark: false };
-  private axis: Axis = { from: 0, to: 1, left: 84, right: 85 };
+  private axis: Axis = { from: 0, to: 1, left: LEAST, right: LEAST + 1 };
   private selection: Range | null = null;
   private pressed: { x: number; time: number; selects: boolean; moved: boolean } | null = null;
   /** Times that all has been painted anew. */
@@ -58,11 +60,22 @@ export class Lanes {
     const longer = this.data?.duration !== data.duration;
     this.data = data;
     this.rows = rowsOf(data, faces, peaks);
-    this.axis.left = faces.length > 1 ? 112 : 84;
+    this.axis.left = this.beside();
     if (longer) [this.axis.from, this.axis.to] = [0, Math.max(data.duration, CLOSEST)];
     this.selection = selection;
     this.moving.setAttribute("aria-valuemax", data.duration.toFixed(2));
     this.resize();
+  }
+
+  /** How wide the names are with the values beside them. */
+  private beside(): number {
+    const pen = this.still.getContext("2d");
+    if (!pen) return LEAST;
+    this.readTheme();
+    pen.font = this.theme.font;
+    const wide = (text: string): number => (text ? pen.measureText(text).width + 2 * EDGE : 0);
+    const most = Math.max(...this.rows.map(({ name, widest }) => wide(name) + wide(widest ?? "")));
+    return Math.min(Math.max(Math.ceil(most), LEAST), MOST);
   }
 
   private get height(): number {
@@ -187,8 +200,8 @@ export class Lanes {
     pen.textAlign = "left";
     pen.fillStyle = this.theme.ink;
     let top = 0;
-    for (const { name, height } of this.rows) {
-      pen.fillText(name, 4, top + height / 2, left - 8);
+    for (const { name, height, widest } of this.rows) {
+      pen.fillText(name, EDGE, top + height / 2, left - 2 * EDGE - (widest ? pen.measureText(widest).width + EDGE : 0));
       top += height;
     }
     pen.save();
@@ -229,7 +242,7 @@ export class Lanes {
     let top = 0;
     for (const { height, value } of this.rows) {
       const text = value?.(time);
-      if (text) pen.fillText(text, left - 4, top + height / 2);
+      if (text) pen.fillText(text, left - EDGE, top + height / 2);
       top += height;
     }
   }

@@ -23,12 +23,13 @@ export interface Theme {
   dark: boolean;
 }
 
-/** A row of the lanes. `labels` stand beside it: its name, and what changes with time. */
+/** A row of the lanes. Beside it stand its name, and what changes with time: at most as wide as `widest`. */
 export interface Row {
   name: string;
   height: number;
   draw(pen: CanvasRenderingContext2D, top: number, axis: Axis, theme: Theme): void;
   value?(time: number): string;
+  widest?: string;
 }
 
 /** Okabe and Ito's colours, which people with any kind of colour vision can tell apart; on a dark page the dark ones are lighter. */
@@ -155,6 +156,7 @@ export function poseRow(name: string, colour: string, columns: { track: Track; k
       const shown = columns.map(({ track, k }) => weightAt(track, k, time));
       return shown.some((weight) => weight >= STILL) ? shown.map((weight) => weight.toFixed(2)).join(" ") : "";
     },
+    widest: moves ? columns.map(() => "0.00").join(" ") : "",
   };
 }
 
