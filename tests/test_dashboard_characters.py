@@ -171,5 +171,5 @@ def test_a_broken_mesh_is_refused_in_a_line(app, visitors) -> None:
     anna.get_by_role("button", name="Add", exact=True).click()
     message = anna.get_by_test_id("stAlert")
     message.wait_for()
-    assert message.inner_text().strip().splitlines()[-1].startswith("mesh.glb: ")
+    assert message.inner_text().strip().splitlines()[-1].startswith("evil.glb: ")
     assert not list(Path(app.database.parent / "characters").glob("*"))

@@ -187,7 +187,7 @@ def test_nonsense_is_answered_with_what_to_do(front) -> None:
     say(front, "你好")
     message = front.get_by_test_id("stAlert")
     message.wait_for()
-    assert "give the --language of the text" in message.inner_text()
+    assert "give the language of the text" in message.inner_text()
 
 
 GRID = """File type = "ooTextFile"
