@@ -125,10 +125,11 @@ def print_listing(rows: Sequence[Mapping[str, Any]], *, as_json: bool, columns: 
         return
     from rich import box
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Column, Table
     from rich.text import Text
 
-    table = Table(*names, box=box.SIMPLE_HEAD, pad_edge=False)
+    # Folded where there is no room: rich would cut a long word off.
+    table = Table(*(Column(name, overflow="fold") for name in names), box=box.SIMPLE_HEAD, pad_edge=False)
     for row in rows:
         table.add_row(*(Text(_cell(row.get(name, ""))) for name in names))
     Console().print(table)
