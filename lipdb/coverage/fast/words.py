@@ -91,17 +91,16 @@ def cut(texts: pa.StringArray) -> Words:
     raw, lines, _ = spans_of(texts)
     kinds, unread = _kinds(raw, lines)
     inside = kinds != GAP
-    edges = np.flatnonzero(inside[1:] != inside[:-1]) + 1
-    edges = np.append(0, edges) if inside[0] else edges
+    before = np.append(False, inside[:-1])
+    opens, closes = inside > before, inside < before
     # Two lines with nothing between their words, and characters: there one word ends and the next one starts.
-    touching = [lines[inside[lines] & inside[lines - 1] & (lines > 0)]]
+    borders = [lines[inside[lines] & before[lines]]]
     if not raw.isascii() and (characters := np.flatnonzero(kinds == CHARACTER)).size:
         ends = characters + _widths(raw, characters)
-        touching += [characters[inside[characters - 1] & (characters > 0)], ends[inside[ends]]]
-    borders = _distinct(np.concatenate(touching))
-    if borders.size:
-        edges = np.sort(np.concatenate([edges, borders, borders]), kind="stable")
-    starts, ends = edges[0::2].copy(), edges[1::2].copy()
+        borders += [characters[before[characters]], ends[inside[ends]]]
+    for places in borders:
+        opens[places] = closes[places] = True
+    starts, ends = np.flatnonzero(opens), np.flatnonzero(closes)
     return Words(raw, starts, ends, np.searchsorted(starts, lines), _distinct(np.searchsorted(lines, unread, side="right") - 1))
 
 
@@ -157,6 +156,11 @@ def _kinds(raw: bytes, lines: Places) -> tuple[Bytes, Places]:
     of = kinds[marked]
     joiners, unread = marked[of < UNREAD], marked[of >= UNREAD]
     kinds[unread] = GAP
+    # Most marks stand before a space and join nothing.
+    ending = kinds[joiners + 1] == GAP
+    ending &= np.frombuffer(raw, np.uint8)[joiners] < LEAD
+    kinds[joiners[ending]] = GAP
+    joiners = joiners[~ending]
     if joiners.size:
         widths = _widths(raw, joiners)
         kind, before, after = kinds[joiners], kinds[joiners - 1], kinds[joiners + widths]
