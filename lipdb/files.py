@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 import shutil
 import sys
@@ -13,15 +14,23 @@ from pathlib import Path
 from lipdb.errors import InputError, OutputError
 
 
+def encoding_of(raw: bytes) -> str:
+    """How *raw* text is written: UTF-16 where it begins with the mark of that, else UTF-8, with a mark or without."""
+    return "utf-16" if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
+
+
 def read_text(file: Path) -> str:
-    """The text in *file*, or on standard input where that is ``-``. Raises `InputError` when it is not there or no UTF-8."""
+    """The text in *file*, or on standard input where that is ``-``; UTF-8, or UTF-16 with a byte order mark.
+
+    Raises `InputError` when it is not there or is neither.
+    """
     piped = str(file) == "-"
     where = "standard input" if piped else file
     if piped and sys.stdin is None:  # a shell closed it (`<&-`)
         raise InputError(f"{where} is closed; pipe a text in")
     try:
         data = sys.stdin.buffer.read() if piped else file.read_bytes()
-        return data.decode("utf-8-sig")
+        return data.decode(encoding_of(data))
     except UnicodeDecodeError as error:
         raise InputError(f"{where}: no UTF-8 text (byte {error.start + 1}); save it as UTF-8") from error
     except OSError as error:

@@ -56,3 +56,9 @@ def test_text_that_can_not_be_read_is_named(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr("sys.stdin", None)
     with pytest.raises(InputError, match="standard input is closed; pipe a text in"):
         read_text(Path("-"))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_text_is_read_as_its_first_bytes_say(tmp_path: Path, encoding: str) -> None:
+    (tmp_path / "a.txt").write_text("ʃ łąka", encoding)
+    assert read_text(tmp_path / "a.txt") == "ʃ łąka"

@@ -105,6 +105,11 @@ def test_the_command_prints_one_object_a_line_in_order_and_skips_empty_lines():
     assert all(isinstance(entry["confidence"], float) and isinstance(entry["reason"], str) for entry in found)
 
 
+def test_a_list_in_utf_16_is_read_as_well():
+    result = CliRunner().invoke(cli, ["phones", "--ipa", "--json"], input="ʃ\nȹ\n".encode("utf-16"))
+    assert [(entry["ipa"], entry["common"]) for entry in json.loads(result.stdout)] == [("ʃ", ["sh"]), ("ȹ", ["f"])]
+
+
 def test_lines_that_are_no_ipa_are_listed_and_end_with_exit_code_5():
     result = run(["p", "§", "˥", "XYZ", "你", "m"], "--json")
     found = json.loads(result.stdout)

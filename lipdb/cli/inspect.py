@@ -74,12 +74,14 @@ def _list_common(options: Options, as_json: bool) -> None:
 
 def _propose(options: Options, as_json: bool) -> None:
     """Print what the IPA segments on standard input map to."""
+    from lipdb.files import encoding_of
     from lipdb.phones.phoneset import shortened
     from lipdb.phones.proposal import propose
 
     if sys.stdin is None:
         raise InputError("standard input is closed; pipe IPA segments in, one a line")
-    lines = sys.stdin.buffer.read().decode("utf-8-sig", errors="replace").splitlines()
+    raw = sys.stdin.buffer.read()
+    lines = raw.decode(encoding_of(raw), errors="replace").splitlines()
     with options.open() as db:
         rows = db.records.get("ipa.tsv", {})
         found = [propose(line.strip(), rows) for line in lines if line.strip()]

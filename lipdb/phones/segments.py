@@ -11,11 +11,13 @@ from functools import cache
 from lipdb.phones.letters import BACK, LETTERS, LIPS, TIP, Letter
 
 # Pairs: what may be written, and how the chart writes it. Ligatures; older letters and letters for voiceless implosives and
-# palatalised consonants; letters of other alphabets and signs that look the same; Americanist letters; marks.
+# palatalised consonants; letters of Africanists, sinologists and for disordered speech; letters of other alphabets and signs
+# that look the same; Americanist letters; marks.
 _OTHER_SPELLINGS = """
 ʦ ts  ʣ dz  ʧ tʃ  ʤ dʒ  ʨ tɕ  ʥ dʑ  ꭧ tʂ  ꭦ dʐ  ʪ ls  ʫ lz  ɚ ə˞  ɝ ɜ˞
 ᴀ a  ǝ ə  ꞵ β  ꭓ χ  ʚ ɞ  ɩ ɪ  ɷ ʊ  ɼ r̝  ʆ ʃ  ʓ ʒ  ƞ n  ł ɫ  ȷ j  ʗ ǃ  ʇ ǀ  ʖ ǁ  ƥ p  ƭ t  ƈ c  ƙ k  ʠ q
 ᶀ b  ᶁ d  ᶂ f  ᶃ ɡ  ᶄ k  ᶅ l  ᶆ m  ᶇ n  ᶈ p  ᶉ r  ᶊ s  ᶋ ʃ  ᶌ v  ᶍ x  ᶎ z  ƫ t
+ȹ p\u032a  ȸ b\u032a  ᴇ ɛ  ʬ ʘ  ʭ ǀ
 g ɡ  α ɑ  ε ɛ  γ ɣ  δ ð  ϑ θ  φ ɸ  ϕ ɸ  υ ʊ  ι ɪ  λ ʎ  ∫ ʃ  ? ʔ
 ә ə  а a  е e  о o  с c  р p  х x  у y  і i  ѕ s  ј j  һ h  ӡ ʒ
 ! ǃ  | ǀ  || ǁ  ‖ ǁ  = ǂ  ≠ ǂ  ‡ ǂ  ⊙ ʘ  ☉ ʘ

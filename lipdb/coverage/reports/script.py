@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from lipdb.coverage.reports.sentences import pairs_in
 from lipdb.coverage.resolve import units_of
 from lipdb.coverage.speaker import Speaker
 from lipdb.errors import InputError
+from lipdb.files import encoding_of
 from lipdb.progress import report
 
 if TYPE_CHECKING:
@@ -78,9 +78,8 @@ def read_script(text: str, voice: Voice, phoneset: PhoneSet) -> Script:
 
 def decoded(raw: bytes) -> str:
     """The text in *raw*: UTF-8, or UTF-16 with its mark. Raises `InputError` for anything else."""
-    encoding = "utf-16" if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
     try:
-        text = raw.decode(encoding)
+        text = raw.decode(encoding_of(raw))
     except UnicodeDecodeError as error:
         raise InputError(f"this is no text in UTF-8 (byte {error.start:,}); save it as plain text in UTF-8") from error
     if "\0" in text:
