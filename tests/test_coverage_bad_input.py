@@ -193,6 +193,17 @@ def test_a_file_that_vanishes_between_two_looks_is_reported(db: lipdb.Database, 
     assert lines == 2
 
 
+def test_a_file_that_is_cut_while_it_is_counted_is_reported(db: lipdb.Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(tmp_path / "a", story__txt=GOOD * 20_000, good__txt=GOOD)
+    whole = list(sources([str(tmp_path / "a")]))
+    write(tmp_path / "a", story__txt=GOOD)
+    monkeypatch.setattr("lipdb.coverage.scan.sources", lambda paths: iter(whole))
+    counted, lines = counts(db, tmp_path)
+    assert {row["reason"] for row in counted.to_pylist()} == {"cut off"}
+    assert {row["example"] for row in counted.to_pylist()} == {"it became shorter while it was read"}
+    assert lines == 2
+
+
 def test_a_long_line_is_read_in_pieces_that_end_with_sentences(db: lipdb.Database) -> None:
     counter = ExactCounter(db.voice("en").raw())
     sentence = "Bob sees the moon, and the moon sees Bob. "

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import os
 from collections import Counter as Tally
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -73,9 +74,12 @@ class FilePart:
         return self.size
 
     def read(self) -> Content:
-        """The text."""
+        """The text. Raises `OSError` too when somebody made the file shorter since it was divided into parts."""
         with self.path.open("rb") as file:
-            return _text(read_piece(file, self.start, self.size))
+            piece = read_piece(file, self.start, self.size)
+            if os.fstat(file.fileno()).st_size < self.start + self.size:
+                raise OSError("it became shorter while it was read")
+            return _text(piece)
 
     def halves(self) -> tuple[Part, ...]:
         """Those that start in each half."""
