@@ -7,21 +7,19 @@ for the same picture. (cairosvg needs the system's cairo; skia-python needs the 
 from __future__ import annotations
 
 import io
-import re
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lipdb.characters.pictures import LARGEST_FILE
+from lipdb.characters.svg import check_svg
 from lipdb.errors import MeshError
 from lipdb.render.scene import background, encode
 
 MARGIN = 0.06
 """Free room at each side of the picture, as a part of it."""
-
-LARGEST_FILE = 16 * 1024 * 1024
-_OUTSIDE = re.compile(rb"""(?:href|src)\s*=\s*["'](?!\s*(?:\#|data:))|url\(\s*["']?(?!\s*\#)|@import|<!ENTITY""", re.IGNORECASE)
 
 
 class Pictures:
@@ -55,7 +53,7 @@ class Pictures:
 def read_picture(file: Path, width: int, height: int) -> NDArray[np.uint8]:
     """The picture in *file* as RGBA, as large as fits into *width* x *height* without being distorted.
 
-    Raises `MeshError` for a file that is missing, too large, or no picture, and for an SVG that refers to other files.
+    Raises `MeshError` for a file that is missing, too large, or no picture, and for an SVG that is more than one.
     """
     from PIL import Image
 
@@ -78,8 +76,7 @@ def read_picture(file: Path, width: int, height: int) -> NDArray[np.uint8]:
 def _svg_to_png(file: Path, data: bytes, width: int) -> bytes:
     import resvg_py
 
-    if _OUTSIDE.search(data):
-        raise MeshError(f"{file}: this SVG refers to other files; embed them in it")
+    check_svg(data, file)
     try:
         return bytes(resvg_py.svg_to_bytes(svg_string=data.decode("utf-8"), width=width, skip_system_fonts=True))
     except (ValueError, UnicodeDecodeError) as error:
