@@ -86,6 +86,12 @@ def test_a_phone_of_two_common_phones_adds_the_pair_within_it(db: lipdb.Database
     assert len(rows) == 3
 
 
+def test_a_label_of_which_nothing_is_known_is_told_in_the_words_of_a_scan(db: lipdb.Database) -> None:
+    pairs = pa.table([["d"] * 2, ["_", "@@@@"], ["@@@@", "_"], [1, 1]], schema=PAIRS)
+    [finding] = resolve(pairs, db.phoneset("en"), "espeak").findings.to_pylist()
+    assert finding["example"] == "@@@@: nothing is known of it; the neutral vowel ah takes its place"
+
+
 def test_an_unknown_label_is_mapped_by_articulation_and_reported(db: lipdb.Database) -> None:
     pairs = pa.table([["d"] * 2, ["_", "qq7"], ["qq7", "_"], [3, 3]], schema=PAIRS)
     [finding] = resolve(pairs, db.phoneset("en"), "espeak").findings.to_pylist()

@@ -86,7 +86,7 @@ def units_of(labels: list[str], phoneset: PhoneSet, notation: str) -> tuple[list
         [(phone.symbol, common) for phone in phones for common in phone.common]
         for _, phones in groupby(schedule.phones, key=lambda phone: phone.word)
     ]
-    return units, {one.symbol: f"{one.symbol}: nearest {one.proposal or 'nothing'}, {one.reason}" for one in unknown}
+    return units, {one.symbol: f"{one.symbol}: {f'nearest {one.proposal}, ' if one.proposal else ''}{one.reason}" for one in unknown}
 
 
 def _within(

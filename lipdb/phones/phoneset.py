@@ -149,7 +149,7 @@ class PhoneSet:
         proposal, reason = (
             say[0](symbol, notation)
             or say[1](symbol, notation)
-            or ("", f"nothing is known of it; --allow-unknown takes the neutral vowel {NEUTRAL}")
+            or ("", f"nothing is known of it; the neutral vowel {NEUTRAL} takes its place")
         )
         return Unknown(symbol, count, proposal, reason)
 
