@@ -1,7 +1,10 @@
 """A dashboard of its own and a real Chromium, for tests that go the ways people go.
 
-`app` is one server a test file, with a new database; `page` one tab a test file, 1280 x 1000; `chromium` opens more. Software
-draws the faces here, so the tab is kept: to load a page anew costs seconds.
+`app` is one server a test file, with a new database; `page` one tab a test file, 1280 x 1000; `tab` opens more. Software draws
+the faces here, so the tab is kept: to load a page anew costs seconds.
+
+How long anything takes says nothing: wait for what must come (`until`, `eventually`), and before a click for a page that is
+not being drawn (`settled`). What passes by may be over when a slow machine looks; let the page keep it, or let it go round.
 """
 
 from __future__ import annotations
@@ -12,7 +15,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,8 +35,22 @@ FLAGS = [
     "--autoplay-policy=no-user-gesture-required",
     "--mute-audio",
 ]
-PATIENCE = 60_000
+PATIENCE = 120_000
 """Milliseconds to wait for what a slow machine draws in software."""
+QUIET = 150
+"""Milliseconds without a word from the server, after which it has said all."""
+# When the page last asked its server for something, and when it last heard from it.
+LISTEN = """
+    window.asked = window.heard = 0;
+    const known = new WeakSet();
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (message) {
+        if (!known.has(this)) this.addEventListener("message", () => { window.heard = performance.now(); });
+        known.add(this);
+        window.asked = performance.now();
+        send.call(this, message);
+    };
+"""
 
 
 @dataclass(frozen=True)
@@ -72,7 +89,7 @@ def serving(folder: Path, *, port: int | None = None, **variables: str) -> Itera
     with (folder / "log").open("wb") as log, subprocess.Popen(command, env=environment, cwd=folder, stdout=log, stderr=log) as server:
         try:
             url = f"http://localhost:{port}"
-            for _ in range(600):
+            for _ in range(PATIENCE // 100):
                 if server.poll() is not None or _answers(f"{url}/_stcore/health"):
                     break
                 time.sleep(0.1)
@@ -108,17 +125,54 @@ def chromium() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def page(chromium: Any) -> Iterator[Any]:
+    with tab(chromium) as opened:
+        yield opened
+
+
+@contextmanager
+def tab(chromium: Any) -> Iterator[Any]:
+    """A tab of a visitor of its own."""
     context = chromium.new_context(viewport={"width": 1280, "height": 1000})
     context.set_default_timeout(PATIENCE)
+    context.add_init_script(LISTEN)
     yield context.new_page()
     context.close()
 
 
 def settled(page: Any) -> None:
-    """Wait until Streamlit has run the page to its end."""
-    page.wait_for_function(
-        "() => !document.querySelector('[data-testid=stStatusWidget]') && document.querySelector('[data-testid=stMain]')"
-    )
+    """Wait until Streamlit has answered whatever was asked last, and has run the page to its end."""
+    ended = f"""() => document.querySelector("[data-testid=stApp]")?.dataset.testScriptState === "notRunning"
+        && window.heard > window.asked && performance.now() - window.heard > {QUIET}"""
+    eventually(page, lambda: page.evaluate(ended), "the page has run to its end")
+
+
+def eventually(page: Any, holds: Callable[[], Any], what: str) -> Any:
+    """What *holds* gives, once that is true."""
+    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
+    end = time.monotonic() + PATIENCE / 1000
+    while time.monotonic() < end:
+        if found := holds():
+            return found
+        page.wait_for_timeout(50)
+    raise AssertionError(f"never: {what}")
+
+
+def click_until(page: Any, target: Any, happened: Callable[[], Any], *, x: float, y: float) -> Any:
+    """Click a drawing at *x*, *y* (pixels, or parts of it below 1) until something has *happened*, and give that.
+
+    What is just being drawn anew hears no click, and there are gaps between cells: each click is some pixels further.
+    """
+    target.wait_for()
+    for turn in range(20):
+        if target.is_visible():
+            box = target.bounding_box()
+            left, top = x * box["width"] if x < 1 else x, y * box["height"] if y < 1 else y
+            page.mouse.click(box["x"] + left + turn % 5, box["y"] + top + turn % 5)
+        page.wait_for_timeout(400)  # Streamlit tells its server of a selection when no other has followed for a while
+        settled(page)
+        if found := happened():
+            return found
+    raise AssertionError("no click was heard")
 
 
 def stage_state(page: Any) -> dict[str, Any]:
@@ -129,12 +183,8 @@ def stage_state(page: Any) -> dict[str, Any]:
 
 def until(page: Any, condition: str, argument: Any = None) -> Any:
     """What *condition* of (stage, argument) gives, once that is true."""
-    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
-    for _ in range(600):
-        if found := page.locator(".stage").evaluate(f"(stage, argument) => ({condition})", argument):
-            return found
-        page.wait_for_timeout(50)
-    raise AssertionError(f"never: {condition} with {argument}; now {stage_state(page)}")
+    stage = page.locator(".stage")
+    return eventually(page, lambda: stage.evaluate(f"(stage, argument) => ({condition})", argument), f"{condition} with {argument}")
 
 
 def at_rest(page: Any) -> None:

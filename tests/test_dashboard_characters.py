@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from browser import PATIENCE, at_rest, seek, settled
+from browser import at_rest, eventually, seek, settled, tab
 
 import lipdb
 
@@ -16,31 +15,16 @@ COLUMNS = ("Pose", "Shape", "Gain", "Combine", "Curve", "Own")
 
 @pytest.fixture(scope="module")
 def visitors(app, chromium):
-    contexts = [chromium.new_context(viewport={"width": 1280, "height": 1000}) for _ in range(2)]
-    pages = []
-    for context, name in zip(contexts, ("Anna", "Bob"), strict=True):
-        context.set_default_timeout(PATIENCE)
-        page = context.new_page()
-        page.goto(f"{app.url}/characters?character=robin")
-        page.locator(".stage canvas").first.wait_for()
-        page.get_by_label("Your name", exact=True).fill(name)
-        page.get_by_label("Your name", exact=True).press("Enter")
-        settled(page)
-        # Two faces that move leave a machine without a graphics card no time for anything else.
-        at_rest(page)
-        pages.append(page)
-    yield pages
-    for context in contexts:
-        context.close()
-
-
-def until(page, holds: Callable[[], bool], what: str) -> None:
-    """Wait until something holds; components are not in the page's own tree, where Playwright's functions look."""
-    for _ in range(PATIENCE // 50):
-        if holds():
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError(f"never: {what}")
+    with tab(chromium) as anna, tab(chromium) as bob:
+        for page, name in ((anna, "Anna"), (bob, "Bob")):
+            page.goto(f"{app.url}/characters?character=robin")
+            page.locator(".stage canvas").first.wait_for()
+            page.get_by_label("Your name", exact=True).fill(name)
+            page.get_by_label("Your name", exact=True).press("Enter")
+            settled(page)
+            # Two faces that move leave a machine without a graphics card no time for anything else.
+            at_rest(page)
+        yield anna, bob
 
 
 def cell(page, column: str):
@@ -57,12 +41,12 @@ def set_gain(page, gain: str) -> None:
     page.get_by_test_id("stDataFrame").first.locator("canvas").first.focus()
     for name in ("Pose", "Shape", "Gain"):
         page.keyboard.press("Control+Home" if name == "Pose" else "ArrowRight")
-        until(page, lambda name=name: cell(page, name).get_attribute("aria-selected") == "true", f"{name} is chosen")
+        eventually(page, lambda name=name: cell(page, name).get_attribute("aria-selected") == "true", f"{name} is chosen")
     page.keyboard.press("Enter")
     field = page.locator("#portal input")
     field.fill(gain)
     field.press("Enter")
-    until(page, lambda: text(page, "Gain") == gain, f"gain {gain}")
+    eventually(page, lambda: text(page, "Gain") == gain, f"gain {gain}")
     page.get_by_text("1 row to save.").wait_for()
     settled(page)
 
@@ -74,7 +58,7 @@ def jaw_at(page, time: float) -> float:
 
 
 def jaw_comes_to(page, weight: float, time: float = 1.0) -> None:
-    until(page, lambda: jaw_at(page, time) == pytest.approx(weight, abs=0.01), f"open {weight} at {time} s")
+    eventually(page, lambda: jaw_at(page, time) == pytest.approx(weight, abs=0.01), f"open {weight} at {time} s")
 
 
 def go(page, name: str) -> None:
@@ -131,7 +115,7 @@ def test_undo_beside_saved_takes_it_back(app, visitors) -> None:
     bob.get_by_role("button", name="Undo save").click()
     bob.get_by_text("Revision 4 takes revision 3 back.").wait_for()
     assert rows(app)["open", "open"]["gain"] == "0.5"
-    until(bob, lambda: text(bob, "Gain") == "0.5", "the gain before")
+    eventually(bob, lambda: text(bob, "Gain") == "0.5", "the gain before")
     jaw_comes_to(bob, 0.5)
 
 
@@ -142,19 +126,19 @@ def test_the_curve_of_a_link_is_drawn_while_the_face_follows(app, visitors) -> N
     plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
     bob.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)  # a new key on the straight line
-    until(bob, lambda: keys.count() == 3, "a key more")
+    eventually(bob, lambda: keys.count() == 3, "a key more")
     box = keys.nth(1).bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     bob.mouse.move(x, y)
     bob.mouse.down()
     bob.mouse.move(x, y + 27, steps=3)
     bob.mouse.up()
-    until(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.25 1:1", "the curve in the table")
+    eventually(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.25 1:1", "the curve in the table")
     jaw_comes_to(bob, 0.5 * 0.25, time=0.5)  # the pose is half way up there
     bob.keyboard.press("Control+z")
-    until(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.5 1:1", "one step back")
+    eventually(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.5 1:1", "one step back")
     bob.keyboard.press("Control+y")
-    until(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.25 1:1", "and forth")
+    eventually(bob, lambda: text(bob, "Curve") == "0:0 0.5:0.25 1:1", "and forth")
     settled(bob)
     bob.get_by_role("button", name="Save", exact=True).click()
     bob.get_by_text("Saved as revision 5.").wait_for()

@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from browser import settled
+from browser import click_until, settled, tab
 
 STORY = "Bob may find five blue whales.\n你好\n" * 50
 
@@ -37,19 +37,8 @@ def back(page, *, by_browser: bool = False) -> None:
 
 
 def click_until_opened(page, target, *, x: float, y: float) -> str:
-    """Click a drawing until Curves opens, and tell which pair; what is just being drawn anew hears no click."""
-    target.wait_for()
-    for turn in range(20):
-        if target.is_visible():
-            box = target.bounding_box()
-            left, top = x * box["width"] if x < 1 else x, y * box["height"] if y < 1 else y
-            # Some pixels further each time, for there are gaps between cells.
-            page.mouse.click(box["x"] + left + turn % 5, box["y"] + top + turn % 5)
-        for _ in range(30):
-            page.wait_for_timeout(100)
-            if found := re.search("/curves.*pair=([^&]*)", page.url):
-                return found[1]
-    raise AssertionError("no click opened a pair")
+    """Click a drawing until Curves opens, and tell which pair."""
+    return click_until(page, target, lambda: re.search("/curves.*pair=([^&]*)", page.url), x=x, y=y)[1]
 
 
 def opened(page, pair: str) -> None:
@@ -106,16 +95,20 @@ def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> N
     coverage.get_by_text(re.compile(r"^\d\d of 483$")).wait_for()
 
 
-def test_a_script_stays_with_its_visitor(app, coverage, chromium) -> None:
+@pytest.fixture
+def other(chromium):
+    with tab(chromium) as page:
+        yield page
+
+
+def test_a_script_stays_with_its_visitor(app, coverage, other) -> None:
     view(coverage, "Your script")
     coverage.locator("input[type=file]").set_input_files({"name": "scene.txt", "mimeType": "text/plain", "buffer": b"Bob!\n\nMama"})
     coverage.get_by_text("This scene: 6 pairs, 0 authored or fitted").wait_for()
     coverage.locator("input[type=file]").set_input_files({"name": "scene.txt", "mimeType": "text/plain", "buffer": b"\0\1\2"})
     coverage.get_by_text("save it as plain text in UTF-8").wait_for()
-    other = chromium.new_context().new_page()
     other.goto(f"{app.url}/coverage")
     other.get_by_text("Colour shows").wait_for()
     view(other, "Your script")
     other.get_by_text("Paste a scene, or upload it").wait_for()
     assert other.get_by_label("Script", exact=True).input_value() == ""
-    other.context.close()

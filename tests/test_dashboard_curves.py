@@ -2,10 +2,9 @@
 
 import json
 import re
-from collections.abc import Callable
 
 import pytest
-from browser import PATIENCE, settled
+from browser import click_until, eventually, settled, tab
 
 import lipdb
 from lipdb.curves.keys import parse_keys
@@ -21,15 +20,6 @@ def open_curves(app, page, *, name: str, pair: str = "l-ow", character: str = "r
     field.fill(name)
     field.press("Enter")
     settled(page)
-
-
-def until(page, holds: Callable[[], bool]) -> None:
-    """Wait until something holds; components are not in the page's own tree, where Playwright's functions look."""
-    for _ in range(PATIENCE // 50):
-        if holds():
-            return
-        page.wait_for_timeout(50)
-    raise AssertionError("it did not come to hold")
 
 
 def lane(page, pose: str):
@@ -90,7 +80,7 @@ def test_a_dragged_key_is_drawn_saved_found_and_undone(app, curves, tmp_path) ->
     assert new[1][1] > old[1][1] + 0.2
     assert [key for k, key in enumerate(new) if k != 1] == [key for k, key in enumerate(old) if k != 1]
     assert new[1][1] * 20 == pytest.approx(round(new[1][1] * 20))  # on the grid
-    until(curves, lambda: lane(curves, "W").locator(".drawn").get_attribute("points") != drawn)
+    eventually(curves, lambda: lane(curves, "W").locator(".drawn").get_attribute("points") != drawn, "another curve")
     save(curves, "rounder lips")
     curves.get_by_text("Saved l-ow: W to common").wait_for()
 
@@ -146,18 +136,18 @@ def test_the_loop_plays_the_edited_pair(app, curves) -> None:
     state = loop.evaluate("stage => [stage.lipdb.clock.loop, stage.lipdb.clock.duration]")
     assert state[0] == pytest.approx([0, state[1]], abs=0.02)
     loop.evaluate("stage => stage.lipdb.clock.seek(0.47)")
-    until(curves, lambda: abs(loop.evaluate("stage => stage.lipdb.state.time") - 0.47) < 1e-3)
+    eventually(curves, lambda: abs(loop.evaluate("stage => stage.lipdb.state.time") - 0.47) < 1e-3, "the border is shown")
     playhead = curves.locator(".keys .playhead")
-    until(curves, playhead.is_visible)
+    eventually(curves, playhead.is_visible, "a playhead")
     box, plot = playhead.bounding_box(), lane(curves, "W").locator(".plot").bounding_box()
     assert box["x"] == pytest.approx(plot["x"] + plot["width"] / 2, abs=3)  # the border of the two phones
     before = rounding(loop)
     drag(curves, "W", 1, up=16)
-    until(curves, lambda: rounding(loop) > before + 0.1)
-    settled(curves)  # a click while the page is drawn anew can be lost
+    eventually(curves, lambda: rounding(loop) > before + 0.1, "rounder lips")
+    settled(curves)
     curves.get_by_role("button", name="Discard").click()
     curves.get_by_text("Not saved yet").wait_for(state="hidden")
-    until(curves, lambda: abs(rounding(loop) - before) < 1e-6)
+    eventually(curves, lambda: abs(rounding(loop) - before) < 1e-6, "lips as before")
 
 
 def rounding(loop) -> float:
@@ -178,24 +168,18 @@ def test_a_click_into_the_matrix_of_all_pairs_opens_that_pair_and_the_way_back_l
     curves.get_by_role("button", name="All pairs").click()
     dialog = curves.get_by_test_id("stDialog")
     matrix = dialog.get_by_test_id("stVegaLiteChart").locator("canvas, svg").first
-    matrix.wait_for()
-    for turn in range(40):  # a drawing that is just being made hears no click
-        box = matrix.evaluate_all("all => all.map(one => one.getBoundingClientRect().toJSON())[0]")
-        if not box:
-            break
-        # Some pixels further each time, for there are gaps between cells.
-        curves.mouse.click(box["x"] + box["width"] * 0.4 + turn % 5, box["y"] + box["height"] * 0.4 + turn % 5)
-        curves.wait_for_timeout(500)
-    until(curves, lambda: shown_pair(curves) != "l-ow")
-    pair = shown_pair(curves)
-    until(curves, lambda: keys_of(curves, "open") == row_keys(app, pair, "open"))
-    settled(curves)
+    pair = click_until(curves, matrix, lambda: (now := shown_pair(curves)) != "l-ow" and now, x=0.4, y=0.4)
+    comes_to(app, curves, pair)
     curves.go_back()
-    until(curves, lambda: shown_pair(curves) == "l-ow")
-    until(curves, lambda: keys_of(curves, "open") == row_keys(app, "l-ow", "open"))
+    comes_to(app, curves, "l-ow")
     curves.go_forward()
-    until(curves, lambda: shown_pair(curves) == pair)
-    until(curves, lambda: keys_of(curves, "open") == row_keys(app, pair, "open"))
+    comes_to(app, curves, pair)
+
+
+def comes_to(app, page, pair: str) -> None:
+    eventually(page, lambda: shown_pair(page) == pair, f"{pair} in the address")
+    eventually(page, lambda: keys_of(page, "open") == row_keys(app, pair, "open"), f"the curve of {pair}")
+    settled(page)
 
 
 def test_curves_are_copied_from_another_pair_as_a_step_that_can_be_undone(app, curves) -> None:
@@ -208,12 +192,12 @@ def test_curves_are_copied_from_another_pair_as_a_step_that_can_be_undone(app, c
     curves.get_by_role("option", name="l-ih", exact=True).click()
     settled(curves)
     curves.get_by_role("button", name="Copy", exact=True).click()
-    until(curves, lambda: keys_of(curves, "wide") == row_keys(app, "l-ih", "wide"))
+    eventually(curves, lambda: keys_of(curves, "wide") == row_keys(app, "l-ih", "wide"), "the curve of l-ih")
     curves.keyboard.press("Escape")
     curves.get_by_text("Not saved yet:").wait_for()
     settled(curves)
     curves.keyboard.press("Control+z")
-    until(curves, lambda: keys_of(curves, "wide") == before)
+    eventually(curves, lambda: keys_of(curves, "wide") == before, "the curve of before")
     curves.get_by_text("Not saved yet:").wait_for(state="hidden")
 
 
@@ -231,10 +215,13 @@ def test_a_pair_that_is_right_is_accepted_and_that_is_taken_back(app, curves) ->
         assert db.uses({("l", "eh"): 1.0}, language="en", character="robin")[0].gap
 
 
-def test_two_people_and_one_curve(app, chromium, curves) -> None:
-    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(PATIENCE)
-    bob = context.new_page()
+@pytest.fixture
+def bob(chromium):
+    with tab(chromium) as page:
+        yield page
+
+
+def test_two_people_and_one_curve(app, bob, curves) -> None:
     open_curves(app, bob, name="bob", pair="l-ih")
     open_curves(app, curves, name="anna", pair="l-ih")
     drag(bob, "wide", 1, up=-6, free=True)
@@ -252,7 +239,6 @@ def test_two_people_and_one_curve(app, chromium, curves) -> None:
     assert stored(app, "l", "ih", "wide").split()[1] == "{:g}:{:g}".format(*keys_of(curves, "wide")[1])
     authors = [one["author"] for one in json.loads(app.lipdb("db", "history", "curves/facefx.tsv", "l", "ih", "wide", "--json"))]
     assert authors[:2] == ["anna", "bob"]
-    context.close()
 
 
 def test_the_crab_alone(app, curves, tmp_path) -> None:

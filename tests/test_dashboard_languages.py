@@ -1,7 +1,7 @@
 """The page Languages in a real browser: a small invented language, from its phones to a face that speaks it."""
 
 import pytest
-from browser import seek, serving, stage_state, until
+from browser import seek, serving, settled, stage_state, until
 from shared_tables import copy_workspace
 
 import lipdb
@@ -28,33 +28,25 @@ def app(workspace, tmp_path_factory):
 @pytest.fixture(scope="module")
 def languages(app, page):
     page.goto(f"{app.url}/languages")
-    still(page)
+    settled(page)
     return page
-
-
-def still(page) -> None:
-    """Wait until the script has run to its end, whatever was begun last."""
-    page.wait_for_timeout(200)
-    for _ in range(2):
-        page.wait_for_function("() => document.querySelector('[data-testid=stApp]')?.dataset.testScriptState === 'notRunning'")
-        page.wait_for_timeout(150)
 
 
 def choose(page, name: str) -> None:
     page.get_by_test_id("stButtonGroup").get_by_text(name, exact=True).click()
-    still(page)
+    settled(page)
 
 
 def fill(page, label: str, text: str) -> None:
     field = page.get_by_label(label, exact=True)
     field.fill(text)
     field.press("Tab")
-    still(page)
+    settled(page)
 
 
 def press(page, label: str) -> None:
     page.get_by_role("button", name=label).click()
-    still(page)
+    settled(page)
 
 
 def alert(page) -> str:
@@ -86,9 +78,9 @@ def test_the_doubtful_phone_comes_first_and_its_second_choice_is_taken(languages
 
 def test_the_draft_survives_a_visit_to_another_page(languages) -> None:
     languages.get_by_role("link", name="History").click()
-    still(languages)
+    settled(languages)
     languages.get_by_role("link", name="Languages").click()
-    still(languages)
+    settled(languages)
     languages.get_by_text("none left that must be looked at, 1 decided by you").wait_for()
 
 
@@ -110,7 +102,7 @@ def test_it_speaks_at_once_in_say(app, languages) -> None:
     press(languages, "Open in Say")
     languages.get_by_label("Sentence").wait_for()
     languages.locator(".stage canvas").first.wait_for()
-    still(languages)
+    settled(languages)
     assert languages.get_by_label("Sentence").input_value() == "Palu miku!"
     with lipdb.open(str(app.database)) as db:
         track = db.animate(db.say("Palu miku!", language="qpa")).track

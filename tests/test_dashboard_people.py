@@ -8,7 +8,7 @@ import sqlite3
 from contextlib import closing
 
 import pytest
-from browser import PATIENCE, free_port, serving, settled
+from browser import free_port, serving, settled, tab
 from page_cases import behind_pages, page
 
 CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp": "border"}
@@ -60,14 +60,10 @@ def test_the_dashboard_listens_on_localhost_only(app) -> None:
         assert probe.connect_ex(("127.0.0.2", port)) != 0
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def visitors(chromium):
-    contexts = [chromium.new_context(viewport={"width": 1280, "height": 1000}) for _ in range(2)]
-    for context in contexts:
-        context.set_default_timeout(PATIENCE)
-    yield [context.new_page() for context in contexts]
-    for context in contexts:
-        context.close()
+    with tab(chromium) as anna, tab(chromium) as bob:
+        yield anna, bob
 
 
 def test_two_visitors_do_not_see_what_the_other_has_not_saved(app, visitors) -> None:
@@ -91,11 +87,8 @@ def write(page, label: str, text: str) -> None:
     page.get_by_label(label, exact=True).press("Enter")
 
 
-def test_a_tab_that_is_older_than_the_server_says_so(tmp_path, chromium) -> None:
+def test_a_tab_that_is_older_than_the_server_says_so(tmp_path, page) -> None:
     port = free_port()
-    context = chromium.new_context()
-    context.set_default_timeout(PATIENCE)
-    page = context.new_page()
     banner = page.get_by_role("alert").filter(has_text="This page was loaded from lipdb")
     with serving(tmp_path, port=port) as app:
         page.goto(f"{app.url}/history")
@@ -111,4 +104,3 @@ def test_a_tab_that_is_older_than_the_server_says_so(tmp_path, chromium) -> None
         page.get_by_text("Revision 1:").wait_for()
         settled(page)
         assert not banner.is_visible()
-    context.close()

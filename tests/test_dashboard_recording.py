@@ -46,6 +46,7 @@ def test_an_uploaded_recording_moves_the_face_as_the_command_line_does(app, page
     grid, sound, weights = recording
     page.goto(app.url)
     page.locator(".stage canvas").first.wait_for()
+    settled(page)
     page.get_by_text("Recording", exact=True).click()
     for place, file in enumerate((grid, sound)):
         page.get_by_test_id("stFileUploader").nth(place).locator("input[type=file]").set_input_files(file)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 import shutil
-from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from browser import PATIENCE, free_port, serving, settled
+from browser import free_port, serving, settled, tab
 from oidc_cases import provider, secrets
 from page_cases import DASHBOARD, behind_pages, listen_on, page
 from streamlit.testing.v1 import AppTest
@@ -139,16 +138,6 @@ def test_a_page_that_is_reached_without_the_app_shows_nothing_to_who_is_not_sign
     assert not shown.dataframe
 
 
-@contextmanager
-def tab(chromium, url):
-    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
-    context.set_default_timeout(PATIENCE)
-    page = context.new_page()
-    page.goto(url)
-    yield page
-    context.close()
-
-
 def test_a_viewer_and_an_editor_sign_in_at_a_provider(as_shipped, tmp_path, chromium) -> None:
     port = free_port()
     (tmp_path / ".streamlit").mkdir()
@@ -158,7 +147,8 @@ def test_a_viewer_and_an_editor_sign_in_at_a_provider(as_shipped, tmp_path, chro
             edit.put(TABLE, CURVE)
         with serving(tmp_path, port=port) as app:
             # By a link to a page, on a server that has seen nobody yet.
-            with tab(chromium, f"{app.url}/history") as page:
+            with tab(chromium) as page:
+                page.goto(f"{app.url}/history")
                 page.get_by_role("button", name="Sign in").wait_for()
                 assert page.get_by_text("Rounder low").count() == 0
                 known.claims = {"email": "eve@example.org", "email_verified": True}
@@ -168,7 +158,8 @@ def test_a_viewer_and_an_editor_sign_in_at_a_provider(as_shipped, tmp_path, chro
                 page.get_by_text("Revision 2: Rounder low").wait_for()
                 settled(page)
                 assert page.get_by_role("button", name="Undo").count() == 0
-            with tab(chromium, f"{app.url}/history") as page:
+            with tab(chromium) as page:
+                page.goto(f"{app.url}/history")
                 known.claims = {"email": "anna@example.org", "email_verified": True}
                 page.get_by_role("button", name="Sign in").click()
                 page.get_by_text("anna@example.org (editor)").wait_for()
