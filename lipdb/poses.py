@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from lipdb.errors import PhonesetError
 
+SHARED = "facefx"
+"""The pose set that the shared curves are for: every other set is reached from it through links."""
 FREE = 2.0
 """The threshold that never binds: two weights in 0..1 add up to no more."""
 

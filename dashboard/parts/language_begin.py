@@ -6,11 +6,10 @@ import streamlit as st
 from parts.language_work import WORK, Work, begin, progress, told
 from parts.session import database
 
+from lipdb.curated.schema import CODE, USER_SOURCE
 from lipdb.errors import InputError
 from lipdb.languages.begin import TYPING, draft_of_phones, draft_of_voice
-from lipdb.languages.folder import CODE
 from lipdb.speech.espeak_list import espeak_voices
-from lipdb.store.provenance import USER_SOURCE
 
 VOICE, TYPED = "A voice of espeak-ng", "No voice: I type the phones"
 LARGEST = 4_000_000

@@ -11,16 +11,17 @@ from typing import TYPE_CHECKING, Any
 from lipdb.characters.character import MESH_FILE, NAME, PICTURES
 from lipdb.characters.gltf_read import read_glb
 from lipdb.characters.gltf_write import write_glb
-from lipdb.characters.match import SHARED, Match, match
+from lipdb.characters.match import Match, match
 from lipdb.characters.obj_read import read_objects
 from lipdb.characters.pictures import copy_pictures, picture_files
+from lipdb.curated.schema import USER_SOURCE
 from lipdb.errors import InputError, OutputError
+from lipdb.poses import SHARED
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
 
 BINARY = (".glb", ".vrm")
-SOURCE = "user"
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +81,7 @@ def add_character(path: Path, *, name: str, title: str = "", records: Records, f
             raise InputError(f"{path}: can't be read ({error.strerror}); give files that you may read") from error
         matched = match(shapes, records)
         work.keep()
-    character = {"character": name, "pose_set": SHARED, "shapes": "", "drawing": drawing, "title": title or name, "source": SOURCE}
+    character = {"character": name, "pose_set": SHARED, "shapes": "", "drawing": drawing, "title": title or name, "source": USER_SOURCE}
     return Added(name, {**character, "comment": f"Shapes matched by name to {matched.shape_set}"}, _link_rows(matched), matched)
 
 
@@ -90,7 +91,7 @@ def _link_rows(matched: Match) -> tuple[Row, ...]:
         if p.certainty == "missing":
             continue
         comment = f"{p.known}: doubtful" if p.certainty == "doubtful" else p.comment
-        row = {"pose": p.pose, "shape": p.shape, "gain": p.gain, "combine": p.combine, "curve": p.curve, "source": SOURCE}
+        row = {"pose": p.pose, "shape": p.shape, "gain": p.gain, "combine": p.combine, "curve": p.curve, "source": USER_SOURCE}
         rows.append({**row, "comment": comment})
     return tuple(rows)
 

@@ -9,7 +9,8 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from lipdb.characters.links import closing_shapes, identity_links, through_links
+from lipdb.characters.links import closing_shapes, through_links
+from lipdb.characters.own_links import links_of
 from lipdb.characters.pictures import picture_files
 from lipdb.curves.through import Link, link_from_row
 from lipdb.errors import InputError, MeshError, PhonesetError
@@ -19,7 +20,7 @@ from lipdb.track import Track
 
 if TYPE_CHECKING:
     from lipdb.characters.mesh import Mesh
-    from lipdb.curated.tsv import Records, Row
+    from lipdb.curated.tsv import Records
 
 BUILT = "built:"
 MESH_FILE, PICTURES = "mesh.glb", "pictures"
@@ -57,7 +58,7 @@ class Character:
             known = sorted(p.split("/")[1] for p in records if p.endswith("/character.tsv"))
             raise InputError(f"there is no character {name!r}; there are {', '.join(known) or 'none'}")
         poses = PoseSet.from_records(records, row["pose_set"])
-        links = _links(records, row, poses.poses)
+        links = tuple(link_from_row(link.row) for link in links_of(records, name))
         if not links:
             raise PhonesetError(f"characters/{name}: no links to its shapes; name a set in {path}, column shapes, or add links.tsv")
         must_reach = [pose for pose, must in zip(poses.poses, poses.must_reach, strict=True) if must]
@@ -90,23 +91,6 @@ class Character:
             where = self.folder / what if self.folder else what
             raise MeshError(f"character {self.name!r}: {where} is missing; copy it from where it was added, or add it by another name")
         return self.folder / what
-
-
-def _links(records: Records, row: Row, poses: tuple[str, ...]) -> tuple[Link, ...]:
-    """The shared links that *row* names with the character's own on top, sorted by pose."""
-    shared = row["shapes"]
-    rows: dict[tuple[str, str], Link] = {}
-    if shared == row["pose_set"]:
-        rows = {(link.pose, link.shape): link for link in identity_links(poses)}
-    elif shared:
-        path = f"links/{row['pose_set']}/{shared}.tsv"
-        if path not in records:
-            raise PhonesetError(f"characters/{row['character']}/character.tsv: there is no {path}; name another set in column shapes")
-        rows = {(link.pose, link.shape): link for link in map(link_from_row, records[path].values())}
-    own = map(link_from_row, records.get(f"characters/{row['character']}/links.tsv", {}).values())
-    rows.update({(link.pose, link.shape): link for link in own})
-    kept = [link for link in rows.values() if link.gain]
-    return tuple(sorted(kept, key=lambda link: (poses.index(link.pose) if link.pose in poses else len(poses), link.shape)))
 
 
 @lru_cache(maxsize=8)

@@ -13,12 +13,10 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Literal
 
 from lipdb.errors import InputError
+from lipdb.poses import SHARED
 
 if TYPE_CHECKING:
     from lipdb.curated.tsv import Records, Row
-
-SHARED = "facefx"
-"""The pose set that the shared curves are for; every set has links from it."""
 
 Certainty = Literal["sure", "doubtful", "missing"]
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from lipdb.characters.own_links import VALUES, own_table, shared_links
 from lipdb.curated.tsv import Key, Records, Row
 from lipdb.curves.keys import format_keys
-from lipdb.curves.lookup import SHARED, CurveBook
+from lipdb.curves.lookup import CurveBook
 from lipdb.phones.phoneset import PhoneSet
+from lipdb.poses import SHARED
 
 REST = "at rest"
 

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from lipdb.characters.links import bent, identity_links
-from lipdb.curated.schema import table_of
+from lipdb.curated.schema import USER_SOURCE, table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row
 from lipdb.curves.keys import Keys
-from lipdb.errors import InputError
+from lipdb.errors import InputError, PhonesetError
 from lipdb.poses import PoseSet
 
 VALUES = ("gain", "combine", "curve")
 DOUBTFUL = "doubtful"
-SOURCE = "user"
 STRAIGHT: Keys = ((0.0, 0.0), (1.0, 1.0))
 """What a link without a curve does."""
 SAMPLES = 50
@@ -43,10 +42,13 @@ def own_table(name: str) -> str:
 
 
 def shared_links(records: Records, character: Row) -> dict[Key, Row]:
-    """The links that *character* (its row) takes from the pose set or from ``links/``."""
+    """The links that *character* (its row) takes from the pose set or from ``links/``. Raises `PhonesetError` when they are not there."""
     pose_set, shapes = character["pose_set"], character["shapes"]
     if shapes != pose_set:
-        return dict(records.get(f"links/{pose_set}/{shapes}.tsv", {})) if shapes else {}
+        path = f"links/{pose_set}/{shapes}.tsv"
+        if shapes and path not in records:
+            raise PhonesetError(f"characters/{character['character']}/character.tsv: there is no {path}; name another set in column shapes")
+        return dict(records[path]) if shapes else {}
     poses = PoseSet.from_records(records, pose_set).poses
     return {(link.pose, link.shape): {**link.to_row(), "source": "lipdb", "comment": ""} for link in identity_links(poses)}
 
@@ -105,7 +107,7 @@ def _checked(name: str, given: Mapping[str, str], poses: Sequence[str]) -> Row:
     where = f"the link from {given.get('pose') or 'no pose'} to {given.get('shape') or 'no shape'}"
     cells = {column: str(given.get(column) or "").strip() for column in ("pose", "shape", *VALUES, "comment")}
     try:
-        row = canonical_row(table, {**cells, "combine": cells["combine"] or "sum", "source": SOURCE})
+        row = canonical_row(table, {**cells, "combine": cells["combine"] or "sum", "source": USER_SOURCE})
     except ValueError as error:
         raise InputError(f"{where}: {error}") from error
     if row["pose"] not in poses:
@@ -122,4 +124,4 @@ def _kept(row: Row, before: Row | None) -> Row:
     if before is not None and _same(row, before):
         return before if row["comment"] == before["comment"] else {**before, "comment": row["comment"]}
     doubted = before is not None and row["comment"].endswith(DOUBTFUL)
-    return {**row, "source": SOURCE, "comment": "" if doubted else row["comment"]}
+    return {**row, "source": USER_SOURCE, "comment": "" if doubted else row["comment"]}

@@ -18,8 +18,12 @@ from lipdb.errors import CurveError
 ORIGINS = ("authored", "fitted", "generated", "imported")
 BY_HAND = ("authored", "fitted")
 """The origins that need no more work."""
+USER_SOURCE, USER_LICENCE = "user", "LicenseRef-user"
+"""The row of sources.tsv that stands for the work of the people who use a database, and its licence."""
 TIME_FORMAT = "%Y-%m-%dT%H:%M:%SZ"
 NAME = re.compile(r"\S+")
+CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
+"""The code of a language: ISO 639, with a word for a variety."""
 
 Canonical = Callable[[str], str]
 """Turns a cell into its canonical text; raises `ValueError` with a sentence that says what is wrong."""
@@ -112,7 +116,7 @@ class Table:
 @cache
 def _regex(pattern: str) -> re.Pattern[str]:
     parts = re.split(r"(\{\w+\})", pattern)
-    kinds = {"language": r"[a-z]{2,3}(?:_[a-z0-9]+)?"}
+    kinds = {"language": CODE.pattern}
     return re.compile("".join(f"(?P<{p[1:-1]}>{kinds.get(p[1:-1], '[a-z0-9_]+')})" if p.startswith("{") else re.escape(p) for p in parts))
 
 

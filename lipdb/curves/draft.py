@@ -9,8 +9,9 @@ from lipdb.curated.schema import BY_HAND
 from lipdb.curated.tsv import Key, Records, Row
 from lipdb.curves.curve import Curve, CurveKey, curve_from_row
 from lipdb.curves.keys import Keys, format_keys, parse_keys
-from lipdb.curves.lookup import SHARED, CurveBook, Found
+from lipdb.curves.lookup import CurveBook, Found
 from lipdb.errors import CurveError, InputError
+from lipdb.poses import SHARED
 from lipdb.schedule import SILENCE
 
 COMMON, LANGUAGE, CHARACTER = "common", "language", "character"

@@ -19,13 +19,12 @@ from lipdb.curves.generate import Targets, generated, source_of
 from lipdb.curves.through import Link, carried, link_from_row
 from lipdb.errors import CurveError, PhonesetError
 from lipdb.phones.refined import Kinds
+from lipdb.poses import SHARED
 from lipdb.schedule import SILENCE
 
 if TYPE_CHECKING:
     from lipdb.engine.table import CurveTable
 
-SHARED = "facefx"
-"""The pose set whose curves other sets are reached from."""
 GENERATED, NEAREST = "generated", "nearest"
 AT_REST = Curve((), origin="generated")
 

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterator
 
+from lipdb.curated.schema import USER_SOURCE
 from lipdb.curated.tsv import Records
 from lipdb.errors import InputError
 from lipdb.languages.draft import WRITTEN, Draft, Entry, with_rows
@@ -18,7 +19,6 @@ from lipdb.languages.text import examples_for, script_in, words_of
 from lipdb.phones.phoneset import shortened
 from lipdb.phones.segments import read_segment
 from lipdb.speech.written import NAME, written_voice
-from lipdb.store.provenance import USER_SOURCE
 
 MOST_PHONES = 200
 TYPING = "write phones as in the IPA chart with spaces between them, such as p a ʃ tʃ, or ʃ=sh with its spelling"

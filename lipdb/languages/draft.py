@@ -8,13 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 
-from lipdb.curated.schema import TIME_FORMAT, table_of
+from lipdb.curated.schema import TIME_FORMAT, USER_LICENCE, USER_SOURCE, table_of
 from lipdb.curated.tsv import Key, Records, Row, canonical_row
 from lipdb.errors import InputError
 from lipdb.languages.propose import Phone, Proposed, alias_rows, phone_rows, table
 from lipdb.phones.segments import read_segment
 from lipdb.schedule import SILENCE
-from lipdb.store.provenance import USER_LICENCE, USER_SOURCE
 
 WRITTEN = "written"
 """What speaks a language that no program speaks: nobody, its text is read in silence."""

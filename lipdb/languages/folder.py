@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from lipdb.curated.folder import scan_folder
-from lipdb.curated.schema import Table, table_of
+from lipdb.curated.schema import CODE, Table, table_of
 from lipdb.curated.tsv import Finding, Key, Records, Row
 from lipdb.errors import InputError
 
 SHARED = ("common.tsv", "ipa.tsv", "marks.tsv", "sources.tsv")
 """Shared tables that every language leans on: what is wrong there is wrong here."""
-
-
-CODE = re.compile(r"[a-z]{2,3}(?:_[a-z0-9]+)?")
-"""The code of a language: ISO 639, with a word for a variety."""
 
 
 def require_code(code: str) -> None:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from lipdb.curated.tsv import Records
-from lipdb.curves.lookup import SHARED, CurveBook
+from lipdb.curves.lookup import CurveBook
 from lipdb.languages.reuse import common_phones
+from lipdb.poses import SHARED
 from lipdb.schedule import SILENCE
 
 

@@ -10,13 +10,14 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING
 
 from lipdb.curated.tsv import Records
-from lipdb.curves.lookup import SHARED, CurveBook
+from lipdb.curves.lookup import CurveBook
 from lipdb.decisions import ORIGINS, pair_uses
 from lipdb.errors import InputError
 from lipdb.languages.folder import LanguageFolder
 from lipdb.languages.report import Coverage, Pair, Remark
 from lipdb.phones.mapping import unbracketed
 from lipdb.phones.phoneset import PhoneSet, shortened
+from lipdb.poses import SHARED
 from lipdb.schedule import MICROSECONDS, SILENCE, Phone, Schedule
 
 if TYPE_CHECKING:

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from lipdb.curated.schema import BY_HAND, Table
+from lipdb.curated.schema import BY_HAND, USER_LICENCE, USER_SOURCE, Table
 from lipdb.curated.tsv import Row
 
-USER_SOURCE = "user"
-"""The row of sources.tsv that stands for edits by the people who use a database."""
-
-USER_LICENCE = "LicenseRef-user"
 PROVENANCE = ("origin", "source", "licence", "author", "time")
 
 
