@@ -42,7 +42,7 @@ _LOOKED_AT = 8  # Bytes at the start and the end of a line: enough to tell lines
 _MIX = np.uint64(0xD6E8FEB86659FD93)
 # Bytes of a corpus; the share of its lines that is counted both ways, some thousands of them; and the bytes of a part, small where
 # there would be too few for all who count.
-_SHARES = ((1 << 20, 8, 1 << 18), (1 << 22, 32, 1 << 20), (1 << 24, 128, 1 << 21), (1 << 26, 512, 1 << 22), (1 << 28, 2048, 1 << 23))
+_SHARES = ((1 << 20, 8, 1 << 18), (1 << 22, 32, 1 << 20), (1 << 24, 128, 1 << 20), (1 << 26, 512, 1 << 21), (1 << 28, 2048, 1 << 23))
 _LARGEST = 4096, SIZE
 _NOT_SAID = LEFT_OUT | np.uint32(mask_of((NO_WORDS,)))
 
