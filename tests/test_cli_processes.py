@@ -15,7 +15,7 @@ import lipdb
 
 TEXT = "Bob"
 LIPDB = (sys.executable, "-c", "from lipdb.cli import main; main()")
-FORMATS = {"robin": ("csv", "json", "parquet", "glb", "wav", "tsv", "cues.json", "png"), "flat": ("mp4", "webp")}
+FORMATS = {"robin": ("csv", "json", "parquet", "glb", "wav", "tsv", "cues.json"), "flat": ("mp4", "webp", "png")}
 
 
 @pytest.fixture

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 
 from lipdb.engine import animate
 
-SLOW = settings(max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+SLOW = settings(max_examples=150, suppress_health_check=[HealthCheck.too_slow])
+RATES = st.sampled_from(cases.RATES)
 
 
-@pytest.mark.parametrize("fps", cases.RATES)
 @SLOW
-@given(st.data())
+@given(RATES, st.data())
 def test_every_promise_holds_at_every_frame_for_random_rules_curves_and_schedules(fps, data):
     rules, table = data.draw(cases.worlds())
     edges, phones = data.draw(cases.schedules(table.phones))
@@ -23,9 +23,8 @@ def test_every_promise_holds_at_every_frame_for_random_rules_curves_and_schedule
     assert cases.broken(track.weights, rules, fps) == []
 
 
-@pytest.mark.parametrize("fps", cases.RATES)
 @SLOW
-@given(st.data())
+@given(RATES, st.data())
 def test_every_promise_holds_for_curves_as_an_artist_draws_them(fps, data):
     rules, table = cases.pose_set(), cases.articulated()
     edges, phones = data.draw(cases.schedules(table.phones, size=40))

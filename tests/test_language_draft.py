@@ -1,6 +1,7 @@
 """A new language on its way: begun from a voice or from typed phones, corrected, tried, checked, and kept."""
 
 import io
+import shutil
 import zipfile
 
 import pytest
@@ -37,9 +38,17 @@ def palu(records) -> Draft:
     return draft_of_phones("qpa", records=records, name="Palu", ipa=PHONES, text=TEXT)
 
 
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory, workspace):
+    """A database filled from the workspace, to be copied."""
+    file = tmp_path_factory.mktemp("filled") / "lipdb.db"
+    lipdb.open(file, phonesets=workspace).close()
+    return file
+
+
 @pytest.fixture
-def db(tmp_path, workspace):
-    with lipdb.open(str(tmp_path / "lipdb.db"), phonesets=workspace) as opened:
+def db(tmp_path, filled, workspace):
+    with lipdb.open(shutil.copy(filled, tmp_path), phonesets=workspace) as opened:
         yield opened
 
 
