@@ -97,12 +97,15 @@ class EspeakVoice:
         return f"espeak-ng {libespeak.espeak_version()}; lipdb {package_version('lipdb')}; {SETTINGS}; labels {digest}"
 
     def raw(self) -> EspeakVoice:
-        """The voice with labels as espeak writes them, length and all; only those that depend on their place stay."""
+        """The voice with labels as espeak writes them, length and all; only those that depend on their place or stress stay."""
         placed = {symbol.split("/")[0] for symbol in self.symbols if "/" in symbol}
-        return replace(self, symbols=frozenset(s for s in self.symbols if "/" in s or s.replace("ː", "") in placed))
+        return replace(self, symbols=frozenset(s for s in self.symbols if "/" in s or s[0] in STRESS or s.replace("ː", "") in placed))
 
     def speak(self, text: str) -> Spoken:
-        """Speak *text*: IPA labels of espeak without stress marks, words as they are written."""
+        """Speak *text*: IPA labels of espeak, words as they are written.
+
+        A label has its mark of stress only where the alias table lists it so, because it sounds otherwise without.
+        """
         written, spelt, notes = self._checked(text)
         utterance = libespeak.speak(spelt, self.name)
         marks = without_short_pauses(utterance.marks, utterance.sound.rate)
@@ -158,7 +161,7 @@ class EspeakVoice:
         phones = list[Phone]()
         for word, places in groupby(range(len(labels)), word_of.__getitem__):
             said = [labels[place] for place in places]
-            symbols = _placed([_known(unstressed(label), self.symbols) for label in said], self.symbols)
+            symbols = _placed([_known(label, self.symbols) for label in said], self.symbols)
             phones += [_phone(label, symbol, word) if label else Phone(SILENCE) for label, symbol in zip(said, symbols, strict=True)]
         return phones
 
@@ -195,16 +198,16 @@ def unstressed(label: str) -> str:
     return label.replace("ˈ", "").replace("ˌ", "")
 
 
-def _known(symbol: str, symbols: frozenset[str]) -> str:
-    """*symbol* as the alias table writes it: as it is, without length, or not doubled."""
-    return next((form for form in (symbol, symbol.replace("ː", ""), undoubled(symbol)) if form in symbols), symbol)
+def _known(label: str, symbols: frozenset[str]) -> str:
+    """*label* as the alias table writes it: as it is, without stress, without length, or not doubled."""
+    bare = unstressed(label)
+    return next((form for form in (label, bare, bare.replace("ː", ""), undoubled(bare)) if form in symbols), bare)
 
 
 @lru_cache(maxsize=1 << 12)
 def _symbol(written: str, symbols: frozenset[str]) -> str:
     """The symbol of one label of a word, empty for what is no phone. They come again and again, so each is looked at once."""
-    bare = unstressed(written)
-    return _known(bare, symbols) if is_phone(bare) else ""
+    return _known(written, symbols) if is_phone(written) else ""
 
 
 def _placed(word: list[str], symbols: frozenset[str]) -> tuple[str, ...]:
