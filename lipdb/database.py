@@ -75,14 +75,14 @@ class Database:
     @property
     def records(self) -> Records:
         """All the curated data as it stands now; read again only when somebody has edited it."""
-        revision = self._revision or self.store.revision
+        revision = self.store.revision if self._revision is None else self._revision
         if self._records is None or self._records[0] != revision:
-            self._records = revision, self.store.at(revision) if self._revision else self.store.records()
+            self._records = revision, self.store.records() if self._revision is None else self.store.at(revision)
             self._voices.clear()
         return self._records[1]
 
     def at(self, revision: int) -> Database:
-        """The same database as it stood at *revision*, to look at and to play. Raises `InputError` when there is none."""
+        """The same database as it stood at *revision* (0: empty), to look at and to play. Raises `InputError` when there is none."""
         past = Database(self.store, revision=revision)
         _ = past.records  # a revision that there is not is told here
         return past

@@ -85,6 +85,16 @@ def test_an_edit_for_one_character_leaves_the_others_alone(own: lipdb.Database) 
     assert np.array_equal(own.animate(line, character="crab").track.weights, before["crab"])
 
 
+def test_a_database_as_it_stood_plays_what_it_held_then(own: lipdb.Database) -> None:
+    line = own.say("Hello")
+    before, revision = own.animate(line).track.weights, own.store.revision
+    with own.edit(author="ann") as edit:
+        edit.put("curves/facefx.tsv", {**own.records["curves/facefx.tsv"]["ah", "l", "open"], "keys": "0:0 0.5:1 1:0"})
+    assert not np.array_equal(own.animate(line).track.weights, before)
+    assert np.array_equal(own.at(revision).animate(line).track.weights, before)
+    assert own.at(0).languages() == []
+
+
 @pytest.mark.parametrize(
     ("call", "complaint"),
     [
