@@ -19,6 +19,11 @@ settings.register_profile("lipdb", deadline=None)
 settings.load_profile("lipdb")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the dashboard, whose files take longest, so that in the end no processor waits for another one's long file."""
+    items.sort(key=lambda item: not item.path.name.startswith("test_dashboard_"))
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_places(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """Keep the tests away from the data, the cache and the settings of the person who runs them."""
