@@ -132,6 +132,7 @@ def folder_with(tmp_path, **files):
         ({}, MeshError, "no SVG or PNG pictures in it"),
         ({"A__svg": "not a picture"}, MeshError, "A.svg"),
         ({"A__svg": SVG.replace("<circle", '<image href="/etc/passwd"/><circle')}, MeshError, "something outside"),
+        ({"A__svg": SVG, "A__png": "x"}, MeshError, "A.png and A.svg show one shape; keep one of them"),
         ({"A B!__svg": SVG}, MeshError, "name pictures after their shapes"),
         ({"strange__svg": SVG}, InputError, "none of the known sets"),
         ({"neutral__obj": OBJ}, MeshError, "1 OBJ files in it"),

@@ -22,12 +22,17 @@ _OURS = re.compile(r"\d{1,4}\.(?:svg|png)")
 
 
 def picture_files(folder: Path) -> dict[str, Path]:
-    """Shape to picture: every SVG and PNG of *folder*. Raises `MeshError` when there are none."""
+    """Shape to picture: every SVG and PNG of *folder*. Raises `MeshError` when there are none, or two of one shape."""
     if (folder / NAMES).is_file():
         pictures = _named(folder)
     else:
-        files = sorted(folder.iterdir()) if folder.is_dir() else []
-        pictures = {file.stem: file for file in files if file.suffix.lower() in PICTURE_SUFFIXES and file.is_file()}
+        pictures = {}
+        for file in sorted(folder.iterdir()) if folder.is_dir() else []:
+            if file.suffix.lower() not in PICTURE_SUFFIXES or not file.is_file():
+                continue
+            if file.stem in pictures:
+                raise MeshError(f"{folder}: {pictures[file.stem].name} and {file.name} show one shape; keep one of them")
+            pictures[file.stem] = file
     if not pictures:
         raise MeshError(f"{folder}: no SVG or PNG pictures in it; name each after its shape, such as A.svg")
     return pictures
