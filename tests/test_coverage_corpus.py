@@ -194,7 +194,9 @@ def test_a_part_falls_into_halves_that_have_the_same_lines(tmp_path: Path) -> No
     folder = write(tmp_path, text=TEXT * 20, packed=gzip.compress(TEXT.encode() * 20))
     for path in sorted(folder.iterdir()):
         [source] = [one for one in sources([str(path)]) if isinstance(one, Source)]
-        for part in parts(source, 1 << 18):
+        found = list(parts(source, 1 << 18))
+        assert found
+        for part in found:
             halves = part.halves()
             assert len(halves) == 2
             both, whole = ([p.read().counted(LetterCounter()) for p in some] for some in (halves, [part]))

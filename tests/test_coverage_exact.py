@@ -110,6 +110,7 @@ def test_alignments_are_counted_in_whatever_notation_they_are_written(db: lipdb.
     write(tmp_path, arpa__TextGrid=TEXTGRID.replace('"b"', '"B"').replace('"aa"', '"AA1"'), ipa__TextGrid=TEXTGRID.replace('"aa"', '"ɑ"'))
     with Workers(1, threads=True) as crew:
         counted = count_corpus([str(tmp_path)], counter, crew, Archive(tmp_path / "archive"))
+    assert {Path(place.document).name for place in counted.places} == {"arpa.TextGrid", "ipa.TextGrid"}
     for place in counted.places:
         counts = Archive(tmp_path / "archive").read(place.key)
         assert common(resolve(counts.pairs, db.phoneset("en"), "")) == {("_", "bmp"): 1, ("bmp", "aa"): 1, ("aa", "_"): 1}

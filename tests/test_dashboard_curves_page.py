@@ -145,11 +145,15 @@ def test_a_pair_that_is_right_is_accepted_as_it_is_and_that_can_be_taken_back(db
 
 
 def test_back_to_the_layer_below_takes_the_row_away(db) -> None:
-    page = edit(curves_page(db), W=None)
-    press(page, "Save")
-    assert ("l", "ow", "W") not in db.records["curves/facefx.tsv"]
+    page = curves_page(db)
+    page.session_state["curves_choice"].kind = "language"
+    common = lane(page.run(), "W")["below"]
+    press(edit(page, W=PEAK), "Save")
+    assert db.records["en/curves/facefx.tsv"]["l", "ow", "W"]["keys"] == format_keys(PEAK)
+    press(edit(page, W=None), "Save")
+    assert ("l", "ow", "W") not in db.records.get("en/curves/facefx.tsv", {})
     assert lane(page, "W")["keys"] is None
-    assert lane(page, "W")["below"] == lane(page, "W")["below"]
+    assert lane(page, "W")["below"] == common != []
 
 
 def test_a_character_layer_leaves_everybody_else_alone(db) -> None:
