@@ -2,6 +2,7 @@
 
 import functools
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -109,6 +110,13 @@ def test_notes_go_to_standard_error_and_data_to_standard_output(run: Run, comman
     assert ended == 0
     assert json.loads(out)
     assert err.splitlines()[0] == "lipdb: text: 1 emoji or pictograms are not read"
+
+
+def test_a_package_that_is_not_installed_is_named(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(sys.modules, "resvg_py", None)
+    ended, _, err = run("say", "hi", "-c", "flat", "-o", "x.png")
+    assert (ended, err) == (8, "lipdb: the package resvg_py is not installed; `lipdb doctor` says how to mend that\n")
+    assert not list(tmp_path.iterdir())
 
 
 def test_more_memory_than_there_is_is_an_error_like_any_other(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

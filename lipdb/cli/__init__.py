@@ -19,7 +19,7 @@ from typing import Any
 import click
 
 from lipdb.cli.options import Group, Options
-from lipdb.errors import LipdbError, OutputError
+from lipdb.errors import LipdbError, MissingToolError, OutputError
 
 COMMANDS = {
     "say": ("lipdb.cli.speak:say", "Speak a sentence and write the moving face."),
@@ -132,6 +132,11 @@ def main() -> None:
             with suppress(OSError):
                 sys.stdout.close()
         sys.exit(OutputError.exit_code)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] == "lipdb":
+            raise
+        click.echo(f"lipdb: the package {error.name} is not installed; `lipdb doctor` says how to mend that", err=True)
+        sys.exit(MissingToolError.exit_code)
     except MemoryError:
         click.echo("lipdb: this needs more memory than there is; give fewer frames a second, or a shorter line", err=True)
         sys.exit(LipdbError.exit_code)

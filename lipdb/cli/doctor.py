@@ -12,7 +12,10 @@ import click
 from lipdb.cli.options import Options, json_option, print_listing
 from lipdb.errors import LipdbError, MissingToolError
 
-PACKAGES = ("numpy", "pandas", "pyarrow", "sqlalchemy", "phonemizer", "espeakng-loader", "pypinyin", "pyrender", "av", "streamlit")
+PACKAGES = (
+    *("numpy", "scipy", "pandas", "pyarrow", "sqlalchemy", "alembic", "phonemizer", "espeakng-loader", "pypinyin"),
+    *("pyrender", "pillow", "resvg-py", "av", "streamlit"),
+)
 
 
 @click.command(short_help="Show what is installed, what works, and how to mend the rest.")
