@@ -158,7 +158,7 @@ class Database:
                     for row in rows:
                         edit.put(table, row)
         except BaseException:
-            shutil.rmtree(self.store.characters_folder / name, ignore_errors=True)
+            shutil.rmtree(added.folder, ignore_errors=True)
             raise
         return added
 

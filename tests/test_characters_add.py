@@ -1,11 +1,13 @@
 """Characters made of somebody's files: copied under names of ours, or not at all."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 from glb_cases import Builder
 
+import lipdb
 from lipdb.characters.add import add_character
 from lipdb.characters.character import Character
 from lipdb.characters.gltf_write import write_glb
@@ -18,6 +20,7 @@ from lipdb.errors import InputError, LipdbError, MeshError, OutputError
 from lipdb.track import Track
 
 VOWELS = ("A", "I", "U", "E", "O")
+FACEFX = ("open", "W", "PBM", "FV", "wide", "tRoof")
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10"><circle cx="5" cy="5" r="3"/></svg>'
 OBJ = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
 
@@ -159,12 +162,18 @@ def test_other_files_are_refused(tmp_path, records, name, message):
     assert list((tmp_path / "characters").iterdir()) == []
 
 
-def test_files_of_an_attempt_that_was_never_saved_are_replaced(tmp_path, records):
-    (tmp_path / "a.glb").write_bytes(Builder(VOWELS).glb())
-    (tmp_path / "characters" / "bob").mkdir(parents=True)
-    (tmp_path / "characters" / "bob" / "old.txt").write_text("left")
-    add_character(tmp_path / "a.glb", name="bob", records=records, folder=tmp_path / "characters")
-    assert [file.name for file in (tmp_path / "characters" / "bob").iterdir()] == ["mesh.glb"]
+def test_files_that_have_the_name_already_stay_and_each_face_finds_its_own(tmp_path, db):
+    own = lipdb.open(shutil.copy(db.store.where, tmp_path / "own.db"))
+    for shapes in (VOWELS, FACEFX):
+        (tmp_path / "a.glb").write_bytes(Builder(shapes).glb())
+        own.add_character(tmp_path / "a.glb", name="bob", author="ann")
+        assert own.character("bob").mesh.shape_names == tuple(shapes)
+        added = own.store.undo(own.store.revision, author="ann")
+    assert sorted(file.name for file in own.store.characters_folder.iterdir()) == ["bob", "bob_2"]
+    own.store.undo(added, author="ann")
+    assert own.character("bob").mesh.shape_names == FACEFX
+    assert own.at(2).character("bob").mesh.shape_names == VOWELS
+    own.close()
 
 
 def test_a_character_that_can_not_be_saved_leaves_no_files(tmp_path, db):

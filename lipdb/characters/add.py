@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,9 +27,10 @@ BINARY = (".glb", ".vrm")
 
 @dataclass(frozen=True, slots=True)
 class Added:
-    """A character whose files are in place: its rows, still to be saved, and how its shapes were told."""
+    """A character whose files are in place, in *folder*: its rows, still to be saved, and how its shapes were told."""
 
     name: str
+    folder: Path
     character: Row
     links: tuple[Row, ...]
     match: Match
@@ -63,7 +65,7 @@ class Added:
 
 
 def add_character(path: Path, *, name: str, title: str = "", records: Records, folder: Path) -> Added:
-    """Copy the face at *path* into *folder*/*name* and propose its rows; saving them is the caller's.
+    """Copy the face at *path* into *folder*, below *name*, and propose its rows; saving them is the caller's.
 
     *path* is a .glb, .vrm or .gltf file, a folder of OBJ files (one a shape, one of them called neutral), or a folder of
     SVG or PNG pictures named after their shapes. Files get names of ours, never their own. Raises `InputError` for a
@@ -80,9 +82,13 @@ def add_character(path: Path, *, name: str, title: str = "", records: Records, f
         except OSError as error:
             raise InputError(f"{path}: can't be read ({error.strerror}); give files that you may read") from error
         matched = match(shapes, records)
-        work.keep()
-    character = {"character": name, "pose_set": SHARED, "shapes": "", "drawing": drawing, "title": title or name, "source": USER_SOURCE}
-    return Added(name, {**character, "comment": f"Shapes matched by name to {matched.shape_set}"}, _link_rows(matched), matched)
+        place = work.keep()
+    row = {"character": name, "pose_set": SHARED, "shapes": "", "title": title or name, "source": USER_SOURCE}
+    row |= {
+        "drawing": drawing if place.name == name else f"{place.name}/{drawing}",
+        "comment": f"Shapes matched by name to {matched.shape_set}",
+    }
+    return Added(name, place, row, _link_rows(matched), matched)
 
 
 def _link_rows(matched: Match) -> tuple[Row, ...]:
@@ -100,7 +106,7 @@ class _Workspace:
     """A new folder that takes the character's name only if all went well."""
 
     def __init__(self, folder: Path, name: str) -> None:
-        self.final = folder / name
+        self.folder, self.name = folder, name
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self.place = Path(tempfile.mkdtemp(prefix=".lipdb-", dir=folder))
@@ -110,15 +116,18 @@ class _Workspace:
     def __enter__(self) -> _Workspace:
         return self
 
-    def keep(self) -> None:
-        """Take the place of what an earlier, unsaved attempt left."""
+    def keep(self) -> Path:
+        """Take the character's name, with a number where that is taken; the folder's final place.
+
+        What has the name belongs to a face whose adding was undone, and may be redone, or to another database in this place.
+        """
+        names = chain([self.name], (f"{self.name}_{number}" for number in count(2)))
+        final = next(self.folder / name for name in names if not (self.folder / name).exists())
         try:
-            if self.final.exists():
-                shutil.rmtree(self.final)
             self.place.chmod(0o755)
-            self.place.replace(self.final)
+            return self.place.rename(final)
         except OSError as error:
-            raise OutputError(f"{self.final}: can't be written ({error.strerror}); free some space or choose another place") from error
+            raise OutputError(f"{final}: can't be written ({error.strerror}); free some space or choose another place") from error
 
     def __exit__(self, *_: object) -> None:
         shutil.rmtree(self.place, ignore_errors=True)

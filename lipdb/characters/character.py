@@ -62,8 +62,9 @@ class Character:
         if not links:
             raise PhonesetError(f"characters/{name}: no links to its shapes; name a set in {path}, column shapes, or add links.tsv")
         must_reach = [pose for pose, must in zip(poses.poses, poses.must_reach, strict=True) if must]
-        own = folder / name if folder else None
-        return cls(name, row["title"], row["pose_set"], row["drawing"], links, closing_shapes(links, must_reach), own)
+        place, _, drawing = row["drawing"].rpartition("/")
+        own = folder / (place or name) if folder else None
+        return cls(name, row["title"], row["pose_set"], drawing, links, closing_shapes(links, must_reach), own)
 
     def shapes(self, track: Track) -> Track:
         """Weights of the character's own shapes for *track*, which holds weights of its poses."""
