@@ -196,6 +196,23 @@ def test_a_table_that_is_missing_or_empty_is_an_error_and_no_crash(folder, found
         assert [error for error in errors if error.startswith(f"xx/{name}:1:1: ")], (text, errors)
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace("A\tvowel\ta\taa", "A vowel a aa"),
+        lambda text: text.replace("\tauthored\t", "\tguessed\t"),
+        lambda text: "",
+        lambda text: None,
+    ],
+    ids=["one row", "all rows", "empty", "missing"],
+)
+def test_rows_of_phones_that_cannot_be_read_are_not_missed_by_the_aliases_as_well(folder, found, change):
+    phones = folder / "xx" / "phones.tsv"
+    text = change(phones.read_text())
+    phones.unlink() if text is None else phones.write_text(text)
+    assert {error.split(":")[0] for error in found()} == {"xx/phones.tsv"}
+
+
 def test_bytes_that_are_no_text_are_a_finding(folder, found):
     (folder / "xx" / "phones.tsv").write_bytes(bytes(range(256)))
     assert [error for error in found() if error.startswith("xx/phones.tsv:1:1: can't be read as UTF-8 text")]

@@ -6,7 +6,7 @@ records and labels come back as they were; no symbol means two things; every pho
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -74,15 +74,22 @@ def _between(found: LanguageFolder, places: Places) -> Iterator[Finding]:
     """What is wrong between the tables of the language, and the tables that it lacks."""
     code = found.code
     broken = {one.file for one in found.findings}
+    empty = {f"{code}/{name}.tsv" for name in TABLES if not found.rows(name)}
     for one in check(found.records):
         # A table that is not complete or can't be read is said once, below or already.
-        if (one.file in SHARED or one.file.startswith(f"{code}/")) and "without this table" not in one.message:
+        said = "without this table" in one.message or _follows(one, code, broken | empty)
+        if (one.file in SHARED or one.file.startswith(f"{code}/")) and not said:
             yield places.moved(one)
-    for name in TABLES:
-        path = f"{code}/{name}.tsv"
-        if not found.rows(name) and path not in broken:
-            there = path in found.records
-            yield Finding(path, 1, 1, f"this table {'has no rows' if there else 'is missing'}; every language has {name}.tsv")
+    for path in sorted(empty - broken):
+        there = path in found.records
+        yield Finding(path, 1, 1, f"this table {'has no rows' if there else 'is missing'}; every language has {Path(path).name}")
+
+
+def _follows(one: Finding, code: str, broken: Collection[str]) -> bool:
+    """Whether *one* misses a name of a table that is not there or has rows that can't be read: it may stand in one of them."""
+    tables = {"phone ": f"{code}/phones.tsv", "common phone ": "common.tsv", "source ": "sources.tsv"}
+    table = next((table for what, table in tables.items() if one.message.startswith(what)), "")
+    return table in broken and "does not exist" in one.message
 
 
 def _text(found: LanguageFolder) -> Iterator[Finding]:

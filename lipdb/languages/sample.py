@@ -141,11 +141,11 @@ class Hearing:
     def coverage(self) -> Coverage | None:
         """The pairs that the language can have, those that the sample has, and where the curves of these come from.
 
-        None where there is no sentence, or a phone maps to a common phone that there is not.
+        None where there is no sentence or no phone, or a phone maps to a common phone that there is not.
         """
         records, own = self.folder.records, self.folder.rows("phones")
         common = sorted({SILENCE, *(c for row in own.values() for c in row["common"].split())})
-        if not self.sample.said or any((name,) not in records.get("common.tsv", {}) for name in common):
+        if not self.sample.said or not own or any((name,) not in records.get("common.tsv", {}) for name in common):
             return None
         possible = [(left, right) for left, right in product(common, repeat=2) if left != SILENCE or right != SILENCE]
         found = self.pairs()
