@@ -84,10 +84,8 @@ def add_character(path: Path, *, name: str, title: str = "", records: Records, f
         matched = match(shapes, records)
         place = work.keep()
     row = {"character": name, "pose_set": SHARED, "shapes": "", "title": title or name, "source": USER_SOURCE}
-    row |= {
-        "drawing": drawing if place.name == name else f"{place.name}/{drawing}",
-        "comment": f"Shapes matched by name to {matched.shape_set}",
-    }
+    row["drawing"] = drawing if place.name == name else f"{place.name}/{drawing}"
+    row["comment"] = f"Shapes matched by name to {matched.shape_set}"
     return Added(name, place, row, _link_rows(matched), matched)
 
 

@@ -231,8 +231,9 @@ TABLES: tuple[Table, ...] = (
     Table("{language}/sentences.tsv", _columns("sentence " + _SOURCED, source=_name), ("sentence",)),
     Table("{language}/curves/{pose_set}.tsv", _CURVE, ("left", "right", "pose")),
     # A character. *drawing* is `built:NAME` for the shipped ones, else `mesh.glb` or `pictures`: what stands in the
-    # character's folder, or in the one that stands in front of it (`bob_2/mesh.glb`). *shapes* names the set whose shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to
-    # one when that is the pose set itself), and the character's own links.tsv comes on top.
+    # character's folder, or in the one that is named in front of it (`bob_2/mesh.glb`). *shapes* names the set whose
+    # shapes it has: links/POSE_SET/SHAPES.tsv leads to them (one to one when that is the pose set itself), and the
+    # character's own links.tsv comes on top.
     Table(
         "characters/{character}/character.tsv",
         _columns(
