@@ -9,6 +9,7 @@ from lipdb.curated.tsv import Key, Records, Row, canonical_row
 from lipdb.curves.curve import Curve, CurveKey, curves_from_rows
 from lipdb.curves.generate import Targets, all_pairs, regenerate
 from lipdb.errors import CurveError
+from lipdb.poses import SHARED
 
 Pair = tuple[str, str]
 Pairs = Mapping[str, Sequence[Pair]]
@@ -26,7 +27,7 @@ def remake(records: Records, *, author: str, time: str, more: Pairs | None = Non
     made: dict[str, dict[Key, Row]] = {}
     for pose_set in sorted(sets):
         targets = Targets.from_records(records, pose_set)
-        whole = None if f"links/facefx/{pose_set}.tsv" in records else f"curves/{pose_set}.tsv"
+        whole = None if f"links/{SHARED}/{pose_set}.tsv" in records else f"curves/{pose_set}.tsv"
         for path in sorted(p for p in {*records, *(more or {}), whole or ""} if p.endswith(f"curves/{pose_set}.tsv")):
             old = curves_from_rows(records.get(path, {}).values())
             pairs = all_pairs(targets.phones) if path == whole else sorted(_held(old, targets) | set((more or {}).get(path, ())))
