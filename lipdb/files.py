@@ -46,8 +46,9 @@ def whole_file(path: Path) -> Iterator[Path]:
     try:
         if not path.parent.is_dir():
             raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
-        if path.is_dir():
-            raise OutputError(f"{path}: this is a folder; give a file name")
+        if path.exists() and not path.is_file():
+            # A device would not be written but replaced, for everybody.
+            raise OutputError(f"{path}: this is {'a folder' if path.is_dir() else 'no file'}; give a file name")
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=".lipdb-", suffix=path.suffix)
         os.close(handle)
     except OSError as error:

@@ -1,6 +1,7 @@
 """Files are written whole or not at all, and text is read from a file or a pipe."""
 
 import io
+import os
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,14 @@ def test_an_error_leaves_the_old_file_and_no_other(tmp_path: Path) -> None:
 def test_a_folder_that_cannot_take_the_file_is_named(tmp_path: Path, name: str) -> None:
     with pytest.raises(OutputError, match=str(tmp_path)), whole_file(tmp_path / name):
         pass
+
+
+def test_what_is_no_file_is_not_replaced(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with pytest.raises(OutputError, match="this is no file"), whole_file(pipe) as temporary:
+        temporary.write_text("new")
+    assert pipe.is_fifo()
 
 
 def test_a_full_disk_is_an_output_error_and_leaves_nothing(tmp_path: Path) -> None:
