@@ -193,6 +193,17 @@ def test_a_file_that_vanishes_between_two_looks_is_reported(db: lipdb.Database, 
     assert lines == 2
 
 
+def test_a_name_that_is_no_text_is_shown_as_its_bytes(db: lipdb.Database, tmp_path: Path) -> None:
+    file = tmp_path / "bad\udcffname.txt"
+    try:
+        file.write_text(GOOD)
+    except OSError:
+        pytest.skip("the file system takes no such names")
+    done = scan(db, [str(file)], language="en", scheduler="threads", folder=tmp_path / "parts", output=tmp_path / "r.parquet")
+    assert done.scan.corpus == (f"{tmp_path.as_posix()}/bad\\udcffname.txt",)
+    assert done.scan.totals["lines"] == 2
+
+
 def test_a_file_that_is_cut_while_it_is_counted_is_reported(db: lipdb.Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write(tmp_path / "a", story__txt=GOOD * 20_000, good__txt=GOOD)
     whole = list(sources([str(tmp_path / "a")]))

@@ -111,7 +111,12 @@ def _kind(path: Path, head: bytes) -> str:
 
 def printable_path(path: Path) -> str:
     """How *path* is called in results: as it was given, with `/`, and bytes that are no text shown as such."""
-    return path.as_posix().encode("utf-8", "backslashreplace").decode()
+    return printable(path.as_posix())
+
+
+def printable(name: str) -> str:
+    """*name* with bytes that are no text shown as such."""
+    return name.encode("utf-8", "backslashreplace").decode()
 
 
 def parts(source: Source, size: int) -> Iterator[Part | Counts]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lipdb.coverage.archive import Archive, coverage_folder
-from lipdb.coverage.corpus import Source, sources
+from lipdb.coverage.corpus import Source, printable, sources
 from lipdb.coverage.counts import Counter
 from lipdb.coverage.executors import Workers
 from lipdb.coverage.resolve import mapping_digest
@@ -99,6 +99,7 @@ def _written(
     title: str,
 ) -> Scanned:
     phoneset = db.phoneset(language)
+    named = tuple(map(printable, paths))
     path = (output or _default_path(db, paths, counted, counter, language)).absolute()
     time = datetime.now(UTC).strftime(TIME_FORMAT)
     metadata = {
@@ -106,8 +107,8 @@ def _written(
         "time": time,
         "language": language,
         "mode": counter.mode,
-        "corpus": list(paths),
-        "title": title or ", ".join(Path(path).name for path in paths),
+        "corpus": list(named),
+        "title": title or ", ".join(Path(name).name for name in named),
         "content": counted.content,
         "counter": counter.key,
         "mapping": mapping,
@@ -122,7 +123,7 @@ def _written(
 
     summary = write_result(counted, archive, phoneset, counter.notation, path, metadata, error=error)
     totals = {"documents": summary.documents, "lines": summary.lines, "spoken": summary.spoken, "pairs": summary.pairs, **summary.error}
-    one = Scan(time, language, counter.mode, tuple(paths), counted.content, counter.key, mapping, str(path), totals)
+    one = Scan(time, language, counter.mode, named, counted.content, counter.key, mapping, str(path), totals)
     return Scanned(db.store.add_scan(one), read_result(path), len(counted.places), counted.fresh)
 
 
