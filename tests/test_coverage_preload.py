@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+from lipdb.coverage.executors import PRELOADED, READERS
+
 
 def run(code: str) -> str:
     """What *code* prints in a Python of its own."""
@@ -30,3 +32,8 @@ import pandas
 print(pandas.Series([1, 2]).sum())
 """
     assert run(code) == "3"
+
+
+def test_what_is_imported_for_a_language_says_nothing() -> None:
+    for module in [PRELOADED, *READERS.values()]:
+        assert run(f"import {module}") == ""

@@ -137,9 +137,10 @@ class Workers:
 # Never forks of this process: one with threads can wait for a lock that nobody holds. A server without threads forks workers
 # that have their imports already; where there is no such thing each is spawned.
 _METHOD = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-_PRELOADED = "lipdb.coverage.preload"
-_READERS = {"cmn": "pypinyin", "ja": "pyopenjtalk"}
-"""What reads the text of a language and takes long to import."""
+PRELOADED = "lipdb.coverage.preload"
+"""What the server of processes imports for every language."""
+READERS = {"cmn": "pypinyin"}
+"""What reads the text of a language, takes long to import, and does so without a word."""
 
 
 def make_ready(language: str = "") -> None:
@@ -147,7 +148,7 @@ def make_ready(language: str = "") -> None:
     if _METHOD == "forkserver":
         from multiprocessing import forkserver, resource_tracker
 
-        multiprocessing.get_context(_METHOD).set_forkserver_preload([_PRELOADED, *filter(None, [_READERS.get(language)])])
+        multiprocessing.get_context(_METHOD).set_forkserver_preload([PRELOADED, *filter(None, [READERS.get(language)])])
         resource_tracker.ensure_running()  # Else the server would start it, and let Ctrl-C through again.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is this process's business, not its imports'.
         try:

@@ -23,6 +23,6 @@ for module in ("pyarrow.acero", "numpy.ma", "encodings.utf_16_le", "email.parser
     import_module(module)
 kind_of_codes()
 named_signs()
-with suppress(LipdbError, ImportError, OSError):  # Whoever needs the library says what is wrong with it.
+with suppress(LipdbError, ImportError, OSError, RuntimeError):  # Whoever needs the library says what is wrong with it.
     libespeak.espeak_version()
     phonemes.load()
