@@ -19,6 +19,16 @@ def encoding_of(raw: bytes) -> str:
     return "utf-16" if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig"
 
 
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+UMASK = _umask()
+"""What others may not do with new files. Asked for once: asking takes it off for a moment, in every thread."""
+
+
 def read_text(file: Path) -> str:
     """The text in *file*, or on standard input where that is ``-``; UTF-8, or UTF-16 with a byte order mark.
 
@@ -56,9 +66,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     temporary = Path(name)
     try:
         yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o666 & ~umask)
+        temporary.chmod(0o666 & ~UMASK)
         temporary.replace(path)
     except OSError as error:
         raise OutputError(f"{path}: can't be written ({error.strerror or error}); free some space or choose another folder") from error

@@ -44,6 +44,13 @@ def test_what_is_no_file_is_not_replaced(tmp_path: Path) -> None:
     assert pipe.is_fifo()
 
 
+def test_a_file_has_the_rights_of_any_other_new_file(tmp_path: Path) -> None:
+    (tmp_path / "plain.txt").touch()
+    with whole_file(tmp_path / "a.txt") as temporary:
+        temporary.write_text("new")
+    assert (tmp_path / "a.txt").stat().st_mode == (tmp_path / "plain.txt").stat().st_mode
+
+
 def test_a_full_disk_is_an_output_error_and_leaves_nothing(tmp_path: Path) -> None:
     full = Path("/dev/full")
     with pytest.raises(OutputError, match="No space"), whole_file(tmp_path / "a.txt"), full.open("w") as file:
