@@ -86,6 +86,9 @@ def test_a_report_is_in_the_language_of_its_scan(run) -> None:
     [
         (("report", "999"), "no scan 999; `lipdb coverage list`"),
         (("scan", ""), "'': there is no such file"),
+        (("scan", "corpus.txt", "-o", "\udcff.parquet"), "this name is no text"),
+        (("report", "-l", "\udcff"), "no language"),
+        (("list", "-l", "xx"), "no language 'xx'; there are ar,"),
         (("report", "--top", "-3"), "not in the range"),
         (("gaps", "--minutes", "-1"), "not in the range"),
     ],

@@ -123,6 +123,8 @@ def list_scans(options: Options, language: str | None, as_json: bool) -> None:
     from lipdb.coverage.register import state_of
 
     with options.open() as db:
+        if language:
+            db.language(language)
         rows: list[dict[str, Any]] = [{**one.to_json(), "state": state_of(db, one)} for one in db.store.scans(language)]
     columns = ("id", "time", "language", "mode", "state", "pairs", "lines", "revision", "corpus", "path")
     print_listing(rows, as_json=as_json, columns=columns)

@@ -183,5 +183,7 @@ def _frequency(db: Database, scan: str | None, language: str | None, *, silence:
     """What *scan* is called, or else the newest scan of *language*; its language where none is given; and how often its pairs occur."""
     from lipdb.coverage.reports.named import language_of, named_frequency, newest_scan
 
+    if language:
+        db.language(language)
     name = scan or newest_scan(db, language or DEFAULT)
     return name, language or language_of(db, name) or DEFAULT, named_frequency(db, name, silence=silence)

@@ -69,6 +69,8 @@ def scan(
     store's folder of scans; *folder* where counts of parts are kept; *title* what people call the corpus, if not by the
     names of its paths. Raises `InputError` for a path that is not there, and `OutputError`.
     """
+    if output and printable(str(output)) != str(output):
+        raise OutputError(f"{printable(str(output))}: this name is no text, so the list of scans can't keep it; choose another")
     archive = Archive(folder or coverage_folder())
     counter = counter_of(db, language, mode, paths)
     mapping = mapping_digest(db.records, language)
