@@ -88,6 +88,8 @@ def test_what_is_not_saved_waits_while_other_sections_characters_and_pages_are_l
     go(anna, "History")
     anna.get_by_text("Revision 1:").wait_for()
     go(anna, "Characters")
+    anna.get_by_text("These rules belong to the pose set").wait_for()
+    anna.get_by_text("Links", exact=True).click()
     anna.get_by_text("1 row to save.").wait_for()
     assert text(anna, "Gain") == "0.5"
     jaw_comes_to(anna, 0.5)
