@@ -21,18 +21,20 @@ UNUSED = "rfc3987_syntax"
 
 
 def prepare() -> None:
-    """Do what the first page needs while the browser still opens: import, start the voice, build the face."""
+    """Do what the first page needs while the browser still opens: import, say the example, build the face."""
     front, others = SLOW_TO_IMPORT
     for name in front:
         import_module(name)
+    from parts.lines import EXAMPLES
     from parts.session import shared
 
+    from lipdb.database import DEFAULT_LANGUAGE
     from lipdb.errors import LipdbError
     from lipdb.preview import preview
 
     with suppress(LipdbError):  # the pages say what is wrong
         db = shared()
-        preview([db.animate(db.say("Hello!"))], lambda _content, _media: "")
+        preview([db.animate(db.say(EXAMPLES[DEFAULT_LANGUAGE]))], lambda _content, _media: "")
     for name in others:
         import_module(name)
 

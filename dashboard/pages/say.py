@@ -7,14 +7,13 @@ from pathlib import Path
 import streamlit as st
 from parts.downloads import download
 from parts.instant import explain
-from parts.lines import LARGEST, key_of, played, recorded, spoken, staged
+from parts.lines import EXAMPLES, LARGEST, key_of, played, recorded, spoken, staged
 from parts.session import database, shown_errors
 from parts.stage import stage
 
 from lipdb import Line, plugins
 from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
 
-EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
 LONG = 12.0  # seconds of a line that the chart of the stages shows at once
 
 Beside = tuple[str, int | None]  # a character, and the revision of the data that moves it; None for today's

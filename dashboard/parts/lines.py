@@ -15,6 +15,8 @@ from lipdb.engine import Stages
 from lipdb.errors import InputError
 from lipdb.performance import Performance
 
+EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
+"""What a language begins with on the front page; the others with their shortest sample."""
 LARGEST = 20_000_000
 """Bytes that an uploaded file may have: three and a half minutes of speech in studio quality."""
 
