@@ -60,14 +60,13 @@ def scan(
       lipdb coverage scan wiki/ --language de --mode fast -o wiki.parquet
       zcat crawl.gz | lipdb coverage scan - --language en
     """
-    from lipdb.coverage.executors import make_ready
+    if options.alone and not scheduler:
+        from lipdb.coverage.executors import make_ready
 
-    if not scheduler:
         make_ready(language)  # before the imports that take longest
-        if options.alone:
-            from lipdb.coverage.plain_arrow import without_pandas
+        from lipdb.coverage.plain_arrow import without_pandas
 
-            without_pandas()
+        without_pandas()
     from lipdb.coverage.register import scan as run
 
     with options.open() as db:

@@ -127,7 +127,7 @@ class Workers:
             self._executor = ThreadPoolExecutor(self.count)
             self._stack.callback(self._executor.shutdown, cancel_futures=True)
         else:
-            make_ready()
+            _serve(_IMPORTED)
             context = multiprocessing.get_context(_METHOD)
             pool = ProcessPoolExecutor(self.count, mp_context=context, initializer=_begin, initargs=(dict(os.environ),))
             self._executor = pool
@@ -137,18 +137,28 @@ class Workers:
 # Never forks of this process: one with threads can wait for a lock that nobody holds. A server without threads forks workers
 # that have their imports already; where there is no such thing each is spawned.
 _METHOD = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
+# pyarrow imports pandas with the first array.
+_IMPORTED = ["lipdb.coverage.scan", "lipdb.coverage.fast.counter", "lipdb.speech.espeak", "phonemizer.backend.espeak.wrapper", "pandas"]
 PRELOADED = "lipdb.coverage.preload"
-"""What the server of processes imports for every language."""
+"""What the server of processes imports for a program that does nothing but count."""
 READERS = {"cmn": "pypinyin"}
 """What reads the text of a language, takes long to import, and does so without a word."""
 
 
-def make_ready(language: str = "") -> None:
-    """Begin to import what processes need to count *language*, beside whatever this process does next; a second time does nothing."""
+def make_ready(language: str) -> None:
+    """Begin to import what processes need to count *language*, beside whatever this process does next.
+
+    Only for a program that does nothing else: whatever it forks from the same server has no pandas in pyarrow.
+    """
+    _serve([PRELOADED, *filter(None, [READERS.get(language)])])
+
+
+def _serve(modules: list[str]) -> None:
+    """Start the server from which processes are forked, with *modules* imported; a second time does nothing."""
     if _METHOD == "forkserver":
         from multiprocessing import forkserver, resource_tracker
 
-        multiprocessing.get_context(_METHOD).set_forkserver_preload([PRELOADED, *filter(None, [READERS.get(language)])])
+        multiprocessing.get_context(_METHOD).set_forkserver_preload(modules)
         resource_tracker.ensure_running()  # Else the server would start it, and let Ctrl-C through again.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C is this process's business, not its imports'.
         try:
