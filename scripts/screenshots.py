@@ -17,7 +17,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from browser import CHROMIUM, FLAGS, PATIENCE, Dashboard, serving, settled  # noqa: E402
+from browser import CHROMIUM, FLAGS, Dashboard, eventually, serving, settled, tab  # noqa: E402
 from PIL import Image  # noqa: E402
 from playwright.sync_api import sync_playwright  # noqa: E402
 
@@ -42,19 +42,10 @@ def edit(dashboard: Dashboard) -> None:
                 changes.put("curves/facefx.tsv", {**curve.row(("l", "ow", pose)), "keys": keys, "comment": ""})
 
 
-def until(page: Any, true: Callable[[], bool]) -> None:
-    """Wait for what a slow machine takes long to draw."""
-    for _ in range(PATIENCE // 100):
-        if true():
-            return
-        page.wait_for_timeout(100)
-    sys.exit(f"{page.url}: not drawn after {PATIENCE // 1000} s")
-
-
 def drawn(page: Any) -> None:
     """Wait until the page has been run to its end and all parts of it have come."""
     settled(page)
-    until(page, lambda: not page.locator("[data-testid=stSkeleton], [data-testid=stAppSkeleton]").count())
+    eventually(page, lambda: not page.locator("[data-testid=stSkeleton], [data-testid=stAppSkeleton]").count(), "all parts have come")
     page.wait_for_timeout(QUIET)
     settled(page)
 
@@ -63,7 +54,7 @@ def spoken(page: Any, seconds: float) -> None:
     """Wait for the faces, and stand still at an instant."""
     page.locator(".stage").first.wait_for()
     moving = "stages => stages.every(stage => stage.lipdb?.state.faces.length && stage.lipdb.state.faces.every(face => face.moving > 0))"
-    until(page, lambda: page.locator(".stage").evaluate_all(moving))
+    eventually(page, lambda: page.locator(".stage").evaluate_all(moving), "the faces move")
     for player in page.locator(".stage").all():
         player.evaluate("(stage, time) => { stage.lipdb.clock.pause(); stage.lipdb.clock.seek(time); }", seconds)
 
@@ -131,19 +122,17 @@ PICTURES: dict[str, tuple[str, Callable[[Any], None]]] = {
 def take(browser: Any, dashboard: Dashboard, name: str) -> None:
     """One picture, with as few colours as look the same."""
     path, go = PICTURES[name]
-    context = browser.new_context(viewport=SIZE, color_scheme="dark" if name.endswith("_dark") else "light", reduced_motion="reduce")
-    context.set_default_timeout(PATIENCE)
-    page = context.new_page()
-    page.goto(f"{dashboard.url}/{path}")
-    page.get_by_test_id("stMain").wait_for()
-    drawn(page)
-    go(page)
-    drawn(page)
-    picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    theme = "dark" if name.endswith("_dark") else "light"
+    with tab(browser, viewport=SIZE, color_scheme=theme, reduced_motion="reduce") as page:
+        page.goto(f"{dashboard.url}/{path}")
+        page.get_by_test_id("stMain").wait_for()
+        drawn(page)
+        go(page)
+        drawn(page)
+        picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
     TO.mkdir(parents=True, exist_ok=True)
     # Maximum coverage keeps the colours of thin lines, which are few pixels; the median cut would give two lanes one colour.
     picture.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=2).save(TO / f"{name}.png", optimize=True)
-    context.close()
     print(f"{name}: {(TO / f'{name}.png').stat().st_size // 1000} KB")
 
 

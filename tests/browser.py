@@ -130,9 +130,9 @@ def page(chromium: Any) -> Iterator[Any]:
 
 
 @contextmanager
-def tab(chromium: Any) -> Iterator[Any]:
-    """A tab of a visitor of its own."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 1000})
+def tab(chromium: Any, **settings: Any) -> Iterator[Any]:
+    """A tab of a visitor of its own, with *settings* of Playwright's `new_context`."""
+    context = chromium.new_context(**{"viewport": {"width": 1280, "height": 1000}, **settings})
     context.set_default_timeout(PATIENCE)
     context.add_init_script(LISTEN)
     yield context.new_page()
