@@ -164,8 +164,8 @@ def click_until(page: Any, target: Any, happened: Callable[[], Any], *, x: float
     """
     target.wait_for()
     for turn in range(20):
-        if target.is_visible():
-            box = target.bounding_box()
+        # Not bounding_box: it waits for a drawing that the click before has led away from.
+        if box := target.evaluate_all("drawings => drawings[0]?.getBoundingClientRect().toJSON()"):
             left, top = x * box["width"] if x < 1 else x, y * box["height"] if y < 1 else y
             page.mouse.click(box["x"] + left + turn % 5, box["y"] + top + turn % 5)
         page.wait_for_timeout(400)  # Streamlit tells its server of a selection when no other has followed for a while
