@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import altair as alt
 import pandas as pd
+from parts.looks import blue
 
-VERSION_COLOURS = {"mine": "#d55e00", "theirs": "#0072b2", "before": "#999999"}
 VERSION_DASHES = {"mine": [1, 0], "theirs": [6, 3], "before": [2, 2]}
 
 
@@ -17,7 +17,8 @@ def curves_chart(versions: Mapping[str, Sequence[tuple[float, float]] | None]) -
     points = [
         {"time": time, "weight": weight, "version": who, "order": k} for who, keys in drawn.items() for k, (time, weight) in enumerate(keys)
     ]
-    domain = list(VERSION_COLOURS)
+    colours = {"mine": "#d55e00", "theirs": blue(), "before": "#999999"}
+    domain = list(colours)
     return (
         alt.Chart(pd.DataFrame(points, columns=["time", "weight", "version", "order"]), height=200)
         .mark_line(point=True)
@@ -26,7 +27,7 @@ def curves_chart(versions: Mapping[str, Sequence[tuple[float, float]] | None]) -
             y=alt.Y("weight:Q", title=None, scale=alt.Scale(domain=[0, 1]), axis=alt.Axis(values=[0, 0.5, 1])),
             color=alt.Color(
                 "version:N",
-                scale=alt.Scale(domain=domain, range=list(VERSION_COLOURS.values())),
+                scale=alt.Scale(domain=domain, range=list(colours.values())),
                 legend=alt.Legend(title=None, orient="top", symbolType="stroke"),
             ),
             strokeDash=alt.StrokeDash("version:N", scale=alt.Scale(domain=domain, range=list(VERSION_DASHES.values())), legend=None),
