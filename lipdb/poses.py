@@ -94,6 +94,12 @@ class PoseSet:
 
         return tuple(sorted(range(len(self.poses)), key=rank))
 
+    @cached_property
+    def opening(self) -> str:
+        """The pose that yields to every other one that has a priority: in all sets that ship, that of the open mouth."""
+        ranked = [i for i in self.descending if self.priority[i] is not None]
+        return self.poses[ranked[-1] if ranked else 0]
+
     def bounds(self, pose: int) -> tuple[tuple[int, float], ...]:
         """The higher poses that can hold *pose* down, each with its threshold; none for a must-reach pose."""
         if self.must_reach[pose]:

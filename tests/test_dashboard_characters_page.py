@@ -55,19 +55,21 @@ def test_every_pose_is_drawn_at_full_weight(db) -> None:
     assert len(shown.get("image")) == len(db.pose_set("facefx").poses)
 
 
-def test_a_pose_is_drawn_again_when_its_shapes_change_and_else_kept(db, tmp_path, monkeypatch) -> None:
+def test_pictures_of_poses_are_kept_until_their_shapes_change_and_show_the_tongue_in_an_open_mouth(db, tmp_path, monkeypatch) -> None:
     monkeypatch.setenv("LIPDB_CACHE", str(tmp_path / "cache"))
-    poses = len(db.pose_set("facefx").poses)
+    poses, inside = len(db.pose_set("facefx").poses), ("tBack", "tRoof", "tTeeth")
 
     def kept() -> set[str]:
         shown = section("Poses", characters_name="robin")
-        assert len(shown.get("image")) == poses
+        captions = [image.proto.imgs[0].caption for image in shown.get("image")]
+        assert len(captions) == poses
+        assert tuple(one.split("**")[1] for one in captions if "with open at 0.6" in one) == inside
         return {file.name for file in (tmp_path / "cache" / "gallery").iterdir()}
 
     first = kept()
-    assert len(first) == poses
+    assert len(first) == poses + 1 + len(inside)  # and the face at rest, and the tongue behind closed lips
     with db.edit(author="bob") as edit:
-        edit.put("characters/robin/links.tsv", {"pose": "open", "shape": "open", "gain": "0.5", "combine": "sum", "source": "user"})
+        edit.put("characters/robin/links.tsv", {"pose": "W", "shape": "W", "gain": "0.5", "combine": "sum", "source": "user"})
     assert len(kept() - first) == 1
     (tmp_path / "cache").rename(tmp_path / "gone")
     (tmp_path / "cache").write_text("no folder")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import streamlit as st
@@ -15,7 +15,7 @@ from lipdb.errors import OutputError
 from lipdb.files import whole_file
 from lipdb.preview import mesh_bytes
 from lipdb.progress import reported
-from lipdb.render.gallery import SIDE, pose_gallery
+from lipdb.render.gallery import SIDE, Mixtures, is_hidden, pose_gallery
 from lipdb.speech.cache import cache_folder
 
 FORMAT = 1
@@ -23,43 +23,64 @@ FORMAT = 1
 ACROSS = 5
 MOST = 600
 """Pictures that are kept; those that were used longest ago go first."""
+REST = ""
+"""What the face at rest is called among pictures of poses."""
+AJAR = 0.6
+"""How far the mouth is opened for poses that closed lips hide."""
 
 
 def gallery(name: str) -> None:
-    """Each pose of the character *name* at full weight. Raises `LipdbError`."""
+    """Each pose of the character *name* at full weight, those of the tongue in an open mouth. Raises `LipdbError`."""
     db = database()
     who = db.character(name)
+    pose_set = db.pose_set(who.pose_set)
     rows = {row["pose"]: row["description"] for row in db.records[f"poses/{who.pose_set}.tsv"].values()}
-    drawn = list(pictures(who, db.pose_set(who.pose_set).poses).items())
-    for start in range(0, len(drawn), ACROSS):
-        for column, (pose, picture) in zip(st.columns(ACROSS), drawn[start : start + ACROSS], strict=False):
-            column.image(picture, caption=f"**{pose}**  \n{rows.get(pose, '')}", width="stretch")
+    drawn = pictures(who, {REST: {pose_set.opening: 0.0}} | {pose: {pose: 1.0} for pose in pose_set.poses})
+    inside = _hidden(who, drawn, drawn.pop(REST))
+    drawn |= pictures(who, {pose: {pose: 1.0, pose_set.opening: AJAR} for pose in inside})
+    shown = list(drawn.items())
+    for start in range(0, len(shown), ACROSS):
+        for column, (pose, picture) in zip(st.columns(ACROSS), shown[start : start + ACROSS], strict=False):
+            note = f"  \n*with {pose_set.opening} at {AJAR:g}, for closed lips hide it*" if pose in inside else ""
+            column.image(picture, caption=f"**{pose}**  \n{rows.get(pose, '')}{note}", width="stretch")
 
 
-def pictures(who: Character, poses: Sequence[str]) -> dict[str, bytes]:
-    """The PNG of each of *poses*: what is kept, and what is missing drawn with a progress bar. Raises `LipdbError`."""
-    files = _files(who, poses)
-    found = {pose: _read(file) for pose, file in files.items()}
-    if missing := [pose for pose in poses if not found[pose]]:
+def _hidden(who: Character, drawn: Mapping[str, bytes], rest: bytes) -> list[str]:
+    """The poses that move shapes of a mesh, and yet look like the face at *rest*."""
+    if not who.mesh:
+        return []
+    return [pose for pose, picture in drawn.items() if _shapes(who, {pose: 1.0}) and is_hidden(picture, rest)]
+
+
+def pictures(who: Character, mixtures: Mixtures) -> dict[str, bytes]:
+    """The PNG of each of *mixtures*: what is kept, and what is missing drawn with a progress bar. Raises `LipdbError`."""
+    files = _files(who, mixtures)
+    found = {name: _read(file) for name, file in files.items()}
+    if missing := {name: mixture for name, mixture in mixtures.items() if not found[name]}:
         bar = st.progress(0.0, "Drawing poses…")
         with reported(lambda what, done, total: bar.progress(done / max(total, 1), f"{what}: {done} of {total}")):
             found |= (drawn := pose_gallery(who, missing))
         bar.empty()
-        _keep({files[pose]: picture for pose, picture in drawn.items()})
-    return {pose: found[pose] for pose in poses}
+        _keep({files[name]: picture for name, picture in drawn.items()})
+    return found
 
 
-def _files(who: Character, poses: Sequence[str]) -> dict[str, Path]:
+def _files(who: Character, mixtures: Mixtures) -> dict[str, Path]:
     """Where each picture is kept: its name is a digest of the face and of the weights of its shapes."""
     shown = mesh_bytes(who) if who.mesh else b"".join(file.read_bytes() for _, file in sorted(who.pictures.items()))
     face = hashlib.sha256(shown).hexdigest()
     folder = cache_folder() / "gallery"
     files = {}
-    for pose in poses:
-        track = who.shapes(held(poses, {pose: 1.0}, seconds=0))
-        weights = sorted(zip(track.poses, map(float, track.weights[0]), strict=True))
-        files[pose] = folder / f"{hashlib.sha256(repr((FORMAT, SIDE, face, weights)).encode()).hexdigest()[:32]}.png"
+    for name, mixture in mixtures.items():
+        weights = sorted(_shapes(who, mixture).items())
+        files[name] = folder / f"{hashlib.sha256(repr((FORMAT, SIDE, face, weights)).encode()).hexdigest()[:32]}.png"
     return files
+
+
+def _shapes(who: Character, mixture: Mapping[str, float]) -> dict[str, float]:
+    """The weights of the shapes that *mixture* moves."""
+    track = who.shapes(held(list(mixture), mixture, seconds=0))
+    return {shape: float(weight) for shape, weight in zip(track.poses, track.weights[0], strict=True) if weight}
 
 
 def _read(file: Path) -> bytes:
