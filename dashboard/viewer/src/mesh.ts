@@ -54,7 +54,7 @@ export class MeshView {
   ready: Promise<void> = Promise.resolve();
 
   /** `failed` hears why there is no face to see; "" takes it back. Throws where the browser has no WebGL. */
-  constructor(private readonly failed: (why: string) => void) {
+  constructor(public failed: (why: string) => void) {
     software ??= drawsInSoftware();
     this.pace = new Pace(software ? 0.5 : 1);
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
@@ -229,6 +229,16 @@ export class MeshView {
     const shapes = Object.fromEntries(this.track.names.map((name, k) => [name, this.weights[k]]));
     const moving = this.track.names.filter((_, k) => this.moving.some(({ morph }) => morph.moves(k))).length;
     return { shapes, moving, sharpness: this.pace.sharpness };
+  }
+
+  /** Whether it has the face at `url`. */
+  shows(url: string): boolean {
+    return this.url === url;
+  }
+
+  /** Whether its face stands, and can be drawn on another page as well. */
+  get whole(): boolean {
+    return this.url !== "" && !this.canvas.classList.contains("loading") && !this.renderer.getContext().isContextLost();
   }
 
   dispose(): void {

@@ -2,11 +2,12 @@
 
 import { Clock } from "./clock";
 import { Controls } from "./controls";
-import { loaded, Track, type Loaded, type StageData } from "./data";
+import { loaded, Track, type FaceData, type Loaded, type StageData } from "./data";
 import { bytes } from "./files";
 import { Lanes } from "./lanes";
 import { MeshView } from "./mesh";
 import { PictureView } from "./pictures";
+import { left, taken } from "./spare";
 import { VIEWS, type ViewName } from "./views";
 
 interface Component {
@@ -18,6 +19,11 @@ interface Component {
 
 type View = MeshView | PictureView;
 const LATELY = 0.1; // how much of the mean the last frame makes
+
+function leave(view: View): void {
+  if (view instanceof MeshView) left(view);
+  else view.dispose();
+}
 
 function element(name: string, role = ""): HTMLDivElement {
   const made = document.createElement("div");
@@ -158,13 +164,13 @@ export class Stage {
   private stand(faces: Loaded[]): void {
     const kinds = faces.map(({ face }) => face.kind).join(" ");
     if (kinds !== this.kinds) {
-      this.views.forEach((view) => view.dispose());
+      this.views.forEach(leave);
       this.views = [];
       this.kinds = kinds;
       const figures = faces.map(({ face }) => {
         const figure = document.createElement("figure");
         figure.className = "face";
-        const view = this.make(face.kind);
+        const view = this.make(face);
         if (view) this.views.push(view);
         figure.append(view?.canvas ?? element("pictures"), document.createElement("figcaption"));
         return figure;
@@ -183,10 +189,10 @@ export class Stage {
     this.look(this.view);
   }
 
-  private make(kind: "mesh" | "pictures"): View | null {
-    if (kind === "pictures") return new PictureView();
+  private make(face: FaceData): View | null {
+    if (face.kind === "pictures") return new PictureView();
     try {
-      return new MeshView((why) => this.complain(why));
+      return taken(face.url, (why) => this.complain(why));
     } catch {
       this.complain("This browser draws no 3D (WebGL is off or not there): turn on hardware acceleration, or choose the flat mouth.");
       return null;
@@ -257,7 +263,7 @@ export class Stage {
     this.watcher.disconnect();
     this.clock.pause();
     this.id = "";
-    this.views.forEach((view) => view.dispose());
+    this.views.forEach(leave);
   }
 }
 

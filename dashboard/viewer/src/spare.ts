@@ -1,0 +1,25 @@
+// Faces that stand on no page just now: the next page begins with their drawing context, shaders and mesh.
+// To make those anew takes half a second where the processor draws.
+
+import { MeshView } from "./mesh";
+
+const MOST = 2; // as many as a page has; browsers allow sixteen contexts at a time
+
+let spare: MeshView[] = [];
+
+/** A view to stand on a page: a spare one, if there is one the one with the face at `url`. Throws as `MeshView` does; see there for `failed`. */
+export function taken(url: string, failed: (why: string) => void): MeshView {
+  const usable = spare.filter((view) => view.whole);
+  const found = usable.find((view) => view.shows(url)) ?? usable[0];
+  if (!found) return new MeshView(failed);
+  spare = spare.filter((view) => view !== found);
+  found.failed = failed;
+  return found;
+}
+
+/** Keep a view that has left its page, or end it where there are enough. */
+export function left(view: MeshView): void {
+  view.failed = () => {};
+  if (spare.length < MOST && view.whole) spare.push(view);
+  else view.dispose();
+}
