@@ -16,7 +16,7 @@ def moves(weights: Floats) -> tuple[Ints, Ints, Bools]:
     turns = (way[1:] != way[:-1]).nonzero()[0] + 1
     edges = np.concatenate(([0], turns, [len(way)]))
     sign = way[edges[:-1]]
-    moving = sign.nonzero()[0]
+    moving = (sign != 0).nonzero()[0]
     return edges[moving], edges[moving + 1], sign[moving] > 0
 
 
