@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import streamlit as st
+from parts.ahead import fetch_ahead
 from parts.session import greet
 
 # An icon of its own: Streamlit would fetch one by name from the internet.
@@ -11,6 +12,7 @@ SIDEBAR = 220  # pixels; faces, lanes and tables need the rest
 st.set_page_config(page_title="lipdb", page_icon=str(PARTS / "mark.svg"), layout="wide", initial_sidebar_state=SIDEBAR)
 st.logo(str(PARTS / "wordmark.svg"), size="large", icon_image=str(PARTS / "mark.svg"))
 st.html(PARTS / "page.css")
+st.html(f"<script>{(PARTS / 'page.js').read_text('utf-8')}</script>", unsafe_allow_javascript=True)
 page = st.navigation(
     [
         st.Page("pages/say.py", title="Say", icon=":material/record_voice_over:", default=True),
@@ -23,3 +25,4 @@ page = st.navigation(
 )
 greet()
 page.run()
+fetch_ahead()
