@@ -4,10 +4,11 @@ from pathlib import Path
 
 import click
 import pytest
+from click.shell_completion import ShellComplete
 from click.testing import CliRunner
 
-from lipdb import errors
-from lipdb.cli import COMMANDS, cli, main
+from lipdb import database, errors
+from lipdb.cli import COMMANDS, cli, main, names
 
 ROOT = Path(__file__).parent.parent
 
@@ -85,3 +86,25 @@ def test_completion_prints_a_script_for_the_shell(shell: str) -> None:
     result = CliRunner().invoke(cli, ["completion", shell])
     assert result.exit_code == 0
     assert "_LIPDB_COMPLETE" in result.output
+
+
+@pytest.mark.parametrize(
+    ("words", "typed", "offered"),
+    [
+        (["say", "Hello", "--language"], "c", ["cmn"]),
+        (["--db", "BROKEN", "say", "Hello", "--language"], "c", []),
+        (["pairs", "Hello", "--character"], "", ["crab", "flat", "robin"]),
+        (["language", "show"], "cm", ["cmn"]),
+        (["character", "show"], "r", ["robin"]),
+    ],
+    ids=" ".join,
+)
+def test_the_shell_completes_languages_and_characters(words: list[str], typed: str, offered: list[str], tmp_path: Path) -> None:
+    (tmp_path / "broken.db").write_bytes(b"no database")
+    words = [word.replace("BROKEN", str(tmp_path / "broken.db")) for word in words]
+    found = ShellComplete(cli, {}, "lipdb", "_LIPDB_COMPLETE").get_completions(words, typed)
+    assert [item.value for item in found] == offered
+
+
+def test_a_command_takes_the_language_and_the_character_that_the_library_takes() -> None:
+    assert (names.LANGUAGE, names.CHARACTER) == (database.DEFAULT_LANGUAGE, database.DEFAULT_CHARACTER)

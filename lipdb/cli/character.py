@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from lipdb.cli.names import character_argument
 from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing
 
 
@@ -35,7 +36,7 @@ def list_characters(options: Options, as_json: bool) -> None:
 
 
 @character.command("show")
-@click.argument("name")
+@character_argument()
 @json_option
 @click.pass_obj
 def show_character(options: Options, name: str, as_json: bool) -> None:

@@ -1,4 +1,4 @@
-"""``lipdb completion``: print the script that makes a shell complete commands and options."""
+"""``lipdb completion``: print the script that makes a shell complete what is typed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from click.shell_completion import get_completion_class
 @click.command(short_help="Print the completion script of a shell.")
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def completion(shell: str) -> None:
-    """Print the script that makes SHELL complete lipdb's commands and options.
+    """Print the script that makes SHELL complete lipdb's commands and options, and the names of languages and characters.
 
     \b
     Example:

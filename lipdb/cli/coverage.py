@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lipdb.cli.coverage_report import compare, gaps, report, select
+from lipdb.cli.names import language_option
 from lipdb.cli.options import Group, Options, json_option, print_json, print_listing, progress_bar
 from lipdb.errors import InputError
 
@@ -29,7 +30,7 @@ def coverage() -> None:
 
 @coverage.command()
 @click.argument("corpus", nargs=-1, required=True)
-@click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
+@language_option()
 @click.option("--mode", type=click.Choice(["exact", "fast"]), default="exact", show_default=True, help="Every line, or every word once.")
 @click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE", help="The result, a .parquet file.")
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="How many count side by side; one a core by default.")
@@ -107,7 +108,7 @@ def _report(done: Scanned) -> None:
 
 
 @coverage.command("list")
-@click.option("-l", "--language", help="Only those of this language.")
+@language_option("Only those of this language.", default=None)
 @json_option
 @click.pass_obj
 def list_scans(options: Options, language: str | None, as_json: bool) -> None:

@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from lipdb.cli.names import LANGUAGE, character_option, language_option
 from lipdb.cli.options import Options, json_option, print_json, print_listing, progress_bar
 
 if TYPE_CHECKING:
     from lipdb.coverage.reports.frequency import Frequency
     from lipdb.database import Database
 
-DEFAULT = "en"
-LANGUAGE = click.option("-l", "--language", default=DEFAULT, show_default=True, help="A language's code.")
-OF_SCAN = click.option("-l", "--language", help=f"A language's code; that of SCAN if not given, or {DEFAULT}.")
-CHARACTER = click.option("-c", "--character", default="robin", show_default=True, help="Whose curves.")
+OF_SCAN = language_option(f"A language's code; that of SCAN if not given, or {LANGUAGE}.", default=None)
 TABLE_TWO = 21
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -31,7 +29,7 @@ def _top(pairs: int) -> Callable[[Command], Command]:
 @click.command(short_help="Show how often each pair occurs, and how many pairs cover how much.")
 @click.argument("scan", required=False)
 @OF_SCAN
-@CHARACTER
+@character_option()
 @_top(TABLE_TWO)
 @click.option("--silence/--no-silence", default=False, show_default=True, help="Count pairs with silence too.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE", help="Draw the curve into a .png, .svg or .pdf.")
@@ -77,7 +75,7 @@ def report(
 @click.command(short_help="Show which pairs to author next.")
 @click.argument("scan", required=False)
 @OF_SCAN
-@CHARACTER
+@character_option()
 @_top(20)
 @click.option("--silence/--no-silence", default=True, show_default=True, help="Count pairs with silence too.")
 @click.option("--minutes", type=click.FloatRange(min=0), default=5.0, show_default=True, help="What one pair takes an artist.")
@@ -114,7 +112,7 @@ def gaps(
 
 @click.command(short_help="Choose the fewest sentences that hold every pair.")
 @click.argument("corpus", nargs=-1, required=True)
-@LANGUAGE
+@language_option()
 @click.option("--sentences", "most", type=click.IntRange(min=0), metavar="N", help="At most so many; all that are needed if not given.")
 @click.option("--silence/--no-silence", default=True, show_default=True, help="Cover pairs with silence too.")
 @json_option
@@ -185,5 +183,5 @@ def _frequency(db: Database, scan: str | None, language: str | None, *, silence:
 
     if language:
         db.language(language)
-    name = scan or newest_scan(db, language or DEFAULT)
-    return name, language or language_of(db, name) or DEFAULT, named_frequency(db, name, silence=silence)
+    name = scan or newest_scan(db, language or LANGUAGE)
+    return name, language or language_of(db, name) or LANGUAGE, named_frequency(db, name, silence=silence)

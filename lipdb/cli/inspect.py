@@ -7,16 +7,15 @@ from pathlib import Path
 
 import click
 
+from lipdb.cli.names import character_option, language_option
 from lipdb.cli.options import Options, json_option, print_json, print_listing, print_notes
 from lipdb.errors import InputError, UnknownSymbolError
-
-LANGUAGE = click.option("-l", "--language", default="en", show_default=True, help="A language's code.")
 
 
 @click.command(short_help="Show the phones of a text and the common phones they map to.")
 @click.argument("text", required=False)
-@LANGUAGE
-@click.option("-c", "--character", help="Show the phones as this character says them.")
+@language_option()
+@character_option("Show the phones as this character says them.", default=None)
 @click.option("--ipa", is_flag=True, help="Read IPA segments from standard input, one a line, and propose common phones for each.")
 @click.option("--common", is_flag=True, help="List the common phones: who uses each, and what its pairs cost.")
 @json_option
@@ -94,8 +93,8 @@ def _propose(options: Options, as_json: bool) -> None:
 
 @click.command(short_help="Show the phone pairs of a text and where their curves come from.")
 @click.argument("text")
-@LANGUAGE
-@click.option("-c", "--character", default="robin", show_default=True, help="Whose curves.")
+@language_option()
+@character_option()
 @json_option
 @click.pass_obj
 def pairs(options: Options, /, text: str, language: str, character: str, as_json: bool) -> None:
@@ -119,7 +118,7 @@ def pairs(options: Options, /, text: str, language: str, character: str, as_json
 @click.command(short_help="Show what made each weight at one instant.")
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--at", type=float, required=True, metavar="SECONDS", help="The instant; the frame nearest to it is explained.")
-@click.option("-c", "--character", help="Whose face; the one that the file was made for when not given.")
+@character_option("Whose face; the one that the file was made for when not given.", default=None)
 @json_option
 @click.pass_obj
 def explain(options: Options, /, file: Path, at: float, character: str | None, as_json: bool) -> None:

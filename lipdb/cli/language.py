@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from lipdb.cli.names import character_option, language_argument
 from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing, print_notes, progress_bar
 from lipdb.errors import DataError
 
@@ -38,8 +39,8 @@ def list_languages(options: Options, as_json: bool) -> None:
 
 
 @language.command("show")
-@click.argument("code")
-@click.option("-c", "--character", help="Show the phones as this character says them.")
+@language_argument()
+@character_option("Show the phones as this character says them.", default=None)
 @json_option
 @click.pass_obj
 def show_language(options: Options, code: str, character: str | None, as_json: bool) -> None:
@@ -133,7 +134,7 @@ def new_language(
 
 
 @language.command("check")
-@click.argument("code")
+@language_argument()
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--tidy", is_flag=True, help="First write the language's text in canonical form: sorted rows, LF.")
 @json_option
@@ -177,7 +178,7 @@ def check_language(options: Options, code: str, folder: Path | None, tidy: bool,
 
 
 @language.command("reuse")
-@click.argument("code")
+@language_argument()
 @click.option("--from", "donors", multiple=True, default=("en",), show_default=True, help="A language to take pairs from; may be repeated.")
 @click.option(
     "--corpus",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lipdb.cli.names import character_option, language_option
 from lipdb.cli.options import F, Options, json_option, print_json, print_listing, print_notes, progress_bar
 
 if TYPE_CHECKING:
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 def _face_options(command: F) -> F:
     """The options that say and sync share."""
     options: list[Callable[[Any], Any]] = [
-        click.option("-l", "--language", default="en", show_default=True, help="A language's code; see `lipdb language list`."),
-        click.option("-c", "--character", default="robin", show_default=True, help="Whose face; see `lipdb character list`."),
+        language_option("A language's code; see `lipdb language list`."),
+        character_option("Whose face; see `lipdb character list`."),
         click.option("--fps", default=60.0, show_default=True, type=click.FloatRange(1, 1000), help="Frames a second."),
         click.option(
             "-o",
