@@ -7,7 +7,10 @@ new server by a link to a page would get that page alone, without what app.py pu
 import sys
 from contextlib import suppress
 from importlib import import_module
+from logging import ERROR, getLogger
+from pkgutil import iter_modules
 from threading import Thread
+from time import sleep
 
 from streamlit.runtime.pages_manager import PagesManager
 from streamlit.web.cli import main
@@ -16,6 +19,8 @@ from streamlit.web.cli import main
 THEME = {"theme.light.primaryColor": "#0072b2", "theme.dark.primaryColor": "#2a86c4"}
 SLOW_TO_IMPORT = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataframe_util")
 """What the front page waits for, and what the others wait for."""
+FIRST_FACE = 5
+"""Seconds in which the first visitor's page has the processor for itself, before the rest is made ready."""
 UNUSED = "rfc3987_syntax"
 """Where it is installed, jsonschema loads it for addresses that no chart has; its grammar takes two seconds to read."""
 
@@ -37,6 +42,28 @@ def prepare() -> None:
         preview([db.animate(db.say(EXAMPLES[DEFAULT_LANGUAGE]))], lambda _content, _media: "")
     for name in others:
         import_module(name)
+    sleep(FIRST_FACE)
+    prepare_others()
+
+
+def prepare_others() -> None:
+    """Do what the first visit of each other page would wait for: import what it is made of, read the sample sentences."""
+    import parts
+
+    # It would warn that there is no page on which to show that this takes a moment.
+    getLogger("streamlit.runtime.scriptrunner_utils.script_run_context").setLevel(ERROR)
+    for module in iter_modules(parts.__path__):
+        import_module(f"parts.{module.name}")
+    from parts.corpora import sentences
+    from parts.pairs import examples
+    from parts.session import shared
+
+    from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
+    from lipdb.errors import LipdbError
+
+    with suppress(LipdbError):
+        examples(shared(), DEFAULT_LANGUAGE, DEFAULT_CHARACTER)
+        sentences(shared(), DEFAULT_LANGUAGE)
 
 
 if __name__ == "__main__":

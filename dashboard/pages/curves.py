@@ -68,7 +68,7 @@ def show_loop(place: Place, records: Records, loop: Rehearsal) -> None:
 
 def show_sentence(place: Place, records: Records) -> None:
     """A sentence that contains the pair, with the curves as they are now, saved or not."""
-    found = pairs.examples(place.language, place.character).containing(place.left, place.right)
+    found = pairs.examples(database(), place.language, place.character).containing(place.left, place.right)
     if not found:
         text = st.text_input("No sample sentence has this pair. Write one:", key=f"curves_text_{place.language}", max_chars=500)
         if not text.strip():

@@ -9,6 +9,7 @@ from pathlib import Path
 import streamlit as st
 from parts.session import database
 
+from lipdb import Database
 from lipdb.coverage.register import CURRENT, MISSING, state_of
 from lipdb.coverage.reports.frequency import Frequency
 from lipdb.coverage.reports.named import read_frequency
@@ -44,7 +45,7 @@ class Corpus:
     def frequency(self) -> Frequency:
         """How often each pair occurs in it. Raises `InputError` when its result can't be read any more."""
         if self.scan is None:
-            return sentences(self.language, database().store.revision).frequency()
+            return sentences(database(), self.language).frequency()
         return _scanned(self.scan.path, _changed(self.scan.path))
 
 
@@ -79,11 +80,14 @@ def usual(offered: Sequence[Corpus]) -> list[str]:
 
 
 @st.cache_resource(max_entries=32, show_spinner="Reading the example sentences…")
-def sentences(language: str, revision: int) -> Script:  # noqa: ARG001  (the revision decides)
+def _sentences(_db: Database, language: str, revision: int) -> Script:  # noqa: ARG001  (the revision decides)
+    text = "\n".join(sentence for (sentence,) in _db.records[f"{language}/sentences.tsv"])
+    return read_script(text, _db.voice(language), _db.phoneset(language))
+
+
+def sentences(db: Database, language: str) -> Script:
     """The example sentences of *language*. Raises `InputError` when its voice can say none of them."""
-    db = database()
-    text = "\n".join(sentence for (sentence,) in db.records[f"{language}/sentences.tsv"])
-    return read_script(text, db.voice(language), db.phoneset(language))
+    return _sentences(db, language, db.store.revision)
 
 
 @st.cache_resource(max_entries=32, show_spinner=False)

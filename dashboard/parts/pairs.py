@@ -14,6 +14,7 @@ from parts.lines import spoken
 from parts.session import database, in_words, shown_errors
 from streamlit.delta_generator import DeltaGenerator
 
+from lipdb import Database
 from lipdb.curves.draft import KINDS, Place
 from lipdb.curves.rehearse import usual_lengths
 from lipdb.decisions import ORIGINS, PairUse
@@ -210,18 +211,17 @@ def _matrix_chart(uses: list[PairUse], chosen: Choice) -> alt.LayerChart | alt.F
 
 
 @st.cache_resource(max_entries=24, show_spinner="Reading the sample sentences…")
-def _examples(language: str, character: str, digest: int) -> Examples:  # noqa: ARG001  (the digest decides)
-    return Examples(database(), language, character)
+def _examples(_db: Database, language: str, character: str, digest: int) -> Examples:  # noqa: ARG001  (the digest decides)
+    return Examples(_db, language, character)
 
 
-def examples(language: str, character: str) -> Examples:
+def examples(db: Database, language: str, character: str) -> Examples:
     """The sample sentences of *language* as *character* says them; edits of curves do not make them anew."""
     shared = ("common.tsv", "ipa.tsv", f"characters/{character}/mapping.tsv")
-    records = database().records
     decisive = [
-        (path, rows) for path, rows in records.items() if path in shared or (path.startswith(f"{language}/") and "/curves/" not in path)
+        (path, rows) for path, rows in db.records.items() if path in shared or (path.startswith(f"{language}/") and "/curves/" not in path)
     ]
-    return _examples(language, character, hash(repr(decisive)))
+    return _examples(db, language, character, hash(repr(decisive)))
 
 
 def usual(place: Place) -> tuple[float, float]:
@@ -229,6 +229,6 @@ def usual(place: Place) -> tuple[float, float]:
     known: dict[tuple[str, ...], tuple[float, float]] = st.session_state.setdefault("curves_usual", {})
     key = place.left, place.right, place.language
     if key not in known:
-        sentences = examples(place.language, place.character).containing(place.left, place.right)[:LISTENED]
+        sentences = examples(database(), place.language, place.character).containing(place.left, place.right)[:LISTENED]
         known[key] = usual_lengths((spoken(sentence, place.language).schedule for sentence in sentences), place.left, place.right)
     return known[key]
