@@ -145,18 +145,19 @@ class Database:
     def add_character(self, path: str | Path, *, name: str, title: str = "", author: str) -> Added:
         """Add the face in the files at *path* as *name*: copy them, match its shapes to known sets, save its rows.
 
-        What was doubtful or missing stands in the answer. Raises `InputError`, `MeshError` and `OutputError`; nothing is
-        left behind then.
+        What was doubtful or missing stands in the answer. Raises `InputError`, `MeshError`, `OutputError`, and
+        `EditConflictError` when somebody else has just taken the name; nothing is left behind then.
         """
         from lipdb.characters.add import add_character
 
         self.store.require_writable()  # before any file is copied
+        seen = self.store.revision
         added = add_character(Path(path), name=name, title=title, records=self.records, folder=self.store.characters_folder)
         try:
             with self.edit(author=author, note=f"Add the character {name}") as edit:
                 for table, rows in added.tables.items():
                     for row in rows:
-                        edit.put(table, row)
+                        edit.put(table, row, expected_revision=seen)
         except BaseException:
             shutil.rmtree(added.folder, ignore_errors=True)
             raise

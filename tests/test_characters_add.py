@@ -12,11 +12,13 @@ from lipdb.characters.add import add_character
 from lipdb.characters.character import Character
 from lipdb.characters.gltf_write import write_glb
 from lipdb.characters.human import robin
+from lipdb.characters.match import match
 from lipdb.characters.obj_read import read_objects
 from lipdb.curated.folder import read_folder
 from lipdb.curated.schema import table_of
 from lipdb.curated.tsv import canonical_row, key_of
 from lipdb.errors import InputError, LipdbError, MeshError, OutputError
+from lipdb.store.conflict import EditConflictError
 from lipdb.track import Track
 
 VOWELS = ("A", "I", "U", "E", "O")
@@ -181,6 +183,24 @@ def test_a_character_that_can_not_be_saved_leaves_no_files(tmp_path, db):
     with pytest.raises(InputError, match="there is no author"):
         db.add_character(tmp_path / "a.glb", name="bob", author=" ")
     assert list(db.store.characters_folder.iterdir()) == []
+
+
+def test_a_name_that_somebody_else_takes_meanwhile_stays_theirs(tmp_path, db, monkeypatch):
+    (tmp_path / "a.glb").write_bytes(Builder(VOWELS).glb())
+    own = lipdb.open(shutil.copy(db.store.where, tmp_path / "own.db"))
+    theirs = {"character": "bob", "pose_set": "facefx", "drawing": "built:robin", "source": "user", "title": "Ben's Bob"}
+
+    def looked_at(*given):
+        with own.edit(author="ben") as edit:
+            edit.put("characters/bob/character.tsv", theirs)
+        return match(*given)
+
+    monkeypatch.setattr("lipdb.characters.add.match", looked_at)
+    with pytest.raises(EditConflictError, match="ben changed the same"):
+        own.add_character(tmp_path / "a.glb", name="bob", author="ann")
+    assert own.records["characters/bob/character.tsv"]["bob",]["title"] == "Ben's Bob"
+    assert list(own.store.characters_folder.iterdir()) == []
+    own.close()
 
 
 def test_a_file_where_the_folder_should_be_is_named(tmp_path, records):
