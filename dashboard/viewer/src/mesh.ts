@@ -241,6 +241,14 @@ export class MeshView {
     return this.url !== "" && !this.canvas.classList.contains("loading") && !this.renderer.getContext().isContextLost();
   }
 
+  /** Another one with the same face. */
+  async twin(): Promise<MeshView> {
+    const made = new MeshView(() => {});
+    made.ready = made.load(this.url);
+    await made.ready;
+    return made;
+  }
+
   dispose(): void {
     this.url = "";
     this.controls.dispose();

@@ -6,6 +6,7 @@ import { MeshView } from "./mesh";
 const MOST = 2; // as many as a page has; browsers allow sixteen contexts at a time
 
 let spare: MeshView[] = [];
+let doubled = false;
 
 /** A view to stand on a page: a spare one, if there is one the one with the face at `url`. Throws as `MeshView` does; see there for `failed`. */
 export function taken(url: string, failed: (why: string) => void): MeshView {
@@ -15,6 +16,13 @@ export function taken(url: string, failed: (why: string) => void): MeshView {
   spare = spare.filter((view) => view !== found);
   found.failed = failed;
   return found;
+}
+
+/** Make a second view like this one ready, once, for pages that have two. It takes a moment: ask while nothing moves. */
+export function double(view: MeshView): void {
+  if (doubled || !view.whole) return;
+  doubled = true;
+  (window.requestIdleCallback ?? setTimeout)(() => void view.twin().then(left));
 }
 
 /** Keep a view that has left its page, or end it where there are enough. */

@@ -7,7 +7,7 @@ import { bytes } from "./files";
 import { Lanes } from "./lanes";
 import { MeshView } from "./mesh";
 import { PictureView } from "./pictures";
-import { left, taken } from "./spare";
+import { double, left, taken } from "./spare";
 import { VIEWS, type ViewName } from "./views";
 
 interface Component {
@@ -225,7 +225,11 @@ export class Stage {
       this.lanes.tell(time);
     }
     if (time === this.drawn && !this.changed && !this.views.some((view) => view.dirty)) {
-      for (const view of this.views) if (view instanceof MeshView) view.rest();
+      for (const view of this.views) {
+        if (!(view instanceof MeshView)) continue;
+        view.rest();
+        double(view);
+      }
       return;
     }
     const began = performance.now();
