@@ -46,7 +46,12 @@ def asked() -> Wanted:
         start = given.get(key, "")
         index = options.index(start) + 1 if start in options else 0
         chosen = columns[column].selectbox(
-            label, [ANY, *options], index=index, key=f"history_{key}", format_func=lambda name: (titles or {}).get(name, name)
+            label,
+            [ANY, *options],
+            index=index,
+            key=f"history_{key}",
+            persist_state="session",
+            format_func=lambda name: (titles or {}).get(name, name),
         )
         return "" if chosen == ANY else chosen
 
@@ -54,8 +59,8 @@ def asked() -> Wanted:
     author = select(1, "Person", db.store.authors(), "person")
     language = select(2, "Language", sorted(languages), "language", languages)
     character = select(3, "Character", sorted(characters), "character", characters)
-    pair = columns[4].text_input("Pair", given.get("pair", ""), key="history_pair", placeholder="l-ow")
-    words = columns[5].text_input("Words in the note", key="history_words")
+    pair = columns[4].text_input("Pair", given.get("pair", ""), key="history_pair", persist_state="session", placeholder="l-ow")
+    words = columns[5].text_input("Words in the note", key="history_words", persist_state="session")
     return Wanted(author, words.strip(), kind, language, character, pair_of(pair))
 
 
