@@ -47,7 +47,7 @@ def prepare() -> None:
 
 
 def prepare_others() -> None:
-    """Do what the first visit of each other page would wait for: import what it is made of, read the sample sentences."""
+    """Do what the first visit of each other page would wait for: import what it is made of, read the sentences and the shipped rows."""
     import parts
 
     # It would warn that there is no page on which to show that this takes a moment.
@@ -55,6 +55,7 @@ def prepare_others() -> None:
     for module in iter_modules(parts.__path__):
         import_module(f"parts.{module.name}")
     from parts.corpora import sentences
+    from parts.lines import changes_of
     from parts.pairs import examples
     from parts.session import shared
 
@@ -64,6 +65,7 @@ def prepare_others() -> None:
     with suppress(LipdbError):
         examples(shared(), DEFAULT_LANGUAGE, DEFAULT_CHARACTER)
         sentences(shared(), DEFAULT_LANGUAGE)
+        changes_of(shared(), 1)
 
 
 if __name__ == "__main__":

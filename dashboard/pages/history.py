@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import streamlit as st
 from parts.compare import draw_versions
-from parts.lines import state
+from parts.lines import changes_of, state
 from parts.pairs import open_pair
 from parts.session import database, shown_errors, undo, visitor
 
@@ -16,12 +16,6 @@ from lipdb.store.search import Wanted
 ANY = "any"
 MOST, MOST_ROWS, MOST_PAIRS = 200, 1000, 500
 TOLD = "history_told"
-
-
-@st.cache_resource(max_entries=16, show_spinner=False)
-def changes_of(number: int) -> list[Change]:
-    """What revision *number* did; that never changes."""
-    return database().store.changes(number)
 
 
 def pair_of(text: str) -> tuple[str, str] | None:
@@ -160,9 +154,9 @@ with shown_errors():
     st.subheader(f"Revision {one.number}: {one.note or 'no note'}")
     st.caption(f"{one.author}, {one.time.replace('T', ' at ').rstrip('Z')} UTC")
     take_back(one)
-    changes = changes_of(one.number)
-    pairs = changed_pairs(changes)
-    if pairs and one.number > 1:
+    changes = changes_of(database(), one.number)
+    pairs = changed_pairs(changes) if one.number > 1 else []
+    if pairs:
         curves, rows = st.tabs(
             [f"Curves of {len(pairs)} pair{'s' * (len(pairs) > 1)}", f"All {len(changes)} rows" if len(changes) > 1 else "The row"]
         )

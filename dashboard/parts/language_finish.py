@@ -6,7 +6,7 @@ import os
 
 import pandas as pd
 import streamlit as st
-from parts.language_review import common_title
+from parts.language_review import common_titles
 from parts.language_work import STEPS, Work, digest, go, hear, told
 from parts.session import database, writable
 
@@ -100,7 +100,7 @@ def _new_common(mine: Work) -> None:
             "A kind of",
             [NOTHING, *coarser],
             index=None,
-            format_func=_kind_title,
+            format_func=common_titles(),
             key=mine.key("c_of"),
             placeholder="whose curves it begins with",
         )
@@ -120,10 +120,6 @@ def _new_common(mine: Work) -> None:
             draft.decide(phone, common=[name.strip()], example=entry.example, spelt=entry.spelt, note=comment or entry.note)
             st.session_state.pop(mine.key(f"common_{phone}"), None)
         st.rerun()
-
-
-def _kind_title(name: str) -> str:
-    return name if name == NOTHING else common_title(name)
 
 
 def step_check(mine: Work) -> None:

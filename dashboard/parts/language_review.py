@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import pandas as pd
@@ -32,10 +33,15 @@ def step_phones(mine: Work) -> None:
         _panel(mine)
 
 
-def common_title(name: str) -> str:
-    """A common phone as people know it: ``sh (she, chin)``."""
-    example = database().records["common.tsv"].get((name,), {}).get("example", "")
-    return f"{name} ({', '.join(example.split(', ')[:2])})" if example else name
+def common_titles() -> Callable[[str], str]:
+    """What names a common phone as people know it: ``sh (she, chin)``. Many are named at once: the database is asked once."""
+    rows = database().records["common.tsv"]
+
+    def title(name: str) -> str:
+        example = rows.get((name,), {}).get("example", "")
+        return f"{name} ({', '.join(example.split(', ')[:2])})" if example else name
+
+    return title
 
 
 def _table(mine: Work) -> None:
@@ -134,7 +140,7 @@ def _common(mine: Work, entry: Entry) -> list[str]:
         "Common phones",
         options,
         key=key,
-        format_func=common_title,
+        format_func=common_titles(),
         persist_state="session",
         help="What is seen when it is said: lips first, then the jaw, then the tongue. A diphthong or an affricate may have several.",
     )

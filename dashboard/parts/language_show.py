@@ -8,7 +8,7 @@ from parts.conflict import ask_again
 from parts.language_aliases import show_aliases
 from parts.language_edit import SAVED, fill, forget, picked, save_one
 from parts.language_reuse import show_check, show_reuse
-from parts.language_review import common_title
+from parts.language_review import common_titles
 from parts.language_work import hear, told
 from parts.session import Edited, database, visitor
 
@@ -87,7 +87,7 @@ def _edit_phone(beside: st.delta_generator.DeltaGenerator, code: str, row: Row) 
     db, place = database(), f"languages_edit_{code}_{row['phone']}"
     options = [key[0] for key in db.records["common.tsv"] if key[0] != SILENCE]
     fill(place, {"common": row["common"].split(), "ipa": row["ipa"], "example": row["example"], "comment": row["comment"]})
-    common = beside.multiselect("Common phones", options, format_func=common_title, key=f"{place}_common", persist_state="session")
+    common = beside.multiselect("Common phones", options, format_func=common_titles(), key=f"{place}_common", persist_state="session")
     left, right = st.columns(2)
     ipa = left.text_input("IPA", key=f"{place}_ipa", persist_state="session", max_chars=20)
     example = right.text_input("Example word", key=f"{place}_example", persist_state="session", max_chars=80)

@@ -14,6 +14,7 @@ from lipdb import Database, Line
 from lipdb.engine import Stages
 from lipdb.errors import InputError
 from lipdb.performance import Performance
+from lipdb.store.history import Change
 
 EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
 """What a language begins with on the front page; the others with their shortest sample."""
@@ -29,6 +30,12 @@ def _past(revision: int) -> Database:
 def state(revision: int | None) -> Database:
     """The database now, or as it was at *revision*."""
     return database() if revision is None else _past(revision)
+
+
+@st.cache_resource(max_entries=16, show_spinner=False)
+def changes_of(_db: Database, number: int) -> list[Change]:
+    """What revision *number* did; that never changes."""
+    return _db.store.changes(number)
 
 
 @st.cache_resource(max_entries=128, ttl=3600, show_spinner=False)
