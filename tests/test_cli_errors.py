@@ -109,7 +109,7 @@ def test_notes_go_to_standard_error_and_data_to_standard_output(run: Run, comman
     ended, out, err = run(command, "\U0001f916 hello", "--json")
     assert ended == 0
     assert json.loads(out)
-    assert err.splitlines()[0] == "lipdb: text: 1 emoji or pictograms are not read"
+    assert err.splitlines()[0] == "lipdb: text: 1 emoji or pictogram is not read"
 
 
 def test_a_package_that_is_not_installed_is_named(run: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -265,7 +265,7 @@ def test_a_conflict_waits_for_a_choice_and_goes_to_the_workspace(db, workspace) 
     with db.edit(author="bob") as edit:
         edit.put("en/phones.tsv", {**db.records["en/phones.tsv"]["N",], "common": "h"})
     page = languages_page(languages_view=COMPARE, languages_base_kind="The database at a revision", languages_base_revision=1)
-    assert "1 conflicts wait" in page.info[0].value
+    assert "1 conflict waits" in page.info[0].value
     merging = page.session_state["languages_merging"]
     merging.choices[merging.found[0].place] = "left"
     sound(page.run())

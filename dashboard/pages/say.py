@@ -8,7 +8,7 @@ import streamlit as st
 from parts.downloads import download
 from parts.instant import explain
 from parts.lines import EXAMPLES, LARGEST, key_of, played, recorded, spoken, staged
-from parts.session import database, shown_errors
+from parts.session import database, in_words, shown_errors
 from parts.stage import stage
 
 from lipdb import Line, plugins
@@ -157,5 +157,5 @@ with shown_errors():
             st.info("Write a sentence to see a face speak.", icon=":material/keyboard:")
         st.stop()
 for note in line.notes:
-    st.caption(f":material/info: {note}")
+    st.caption(f":material/info: {in_words(note)}")
 show(line, character, beside)

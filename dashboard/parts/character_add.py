@@ -61,8 +61,10 @@ def _tell(added: Added, look_at: Callable[[str], None]) -> None:
         f"Look at {added.name}", key="characters_look", icon=":material/face:", on_click=look_at, args=(added.name,), width="stretch"
     )
     if added.match.doubtful or added.match.missing:
-        doubtful, missing = len(added.match.doubtful), len(added.match.missing)
-        st.warning(f"{doubtful} of its shapes are doubtful, {missing} were not found: look at its links.")
+        found = [
+            f"{count} {what}" for count, what in ((len(added.match.doubtful), "doubtful"), (len(added.match.missing), "not found")) if count
+        ]
+        st.warning(f"Of its shapes {', '.join(found)}: look at its links.")
     marks = {"sure": "", "doubtful": "⚠ doubtful", "missing": "✗ not found"}
     rows = [
         {"": marks[row["certainty"]], **{column: row[column] for column in ("pose", "shape", "gain", "comment")}} for row in added.rows()

@@ -18,6 +18,7 @@ from lipdb.characters.own_links import link_rows, links_of, own_table
 from lipdb.curated.tsv import Row
 from lipdb.errors import LipdbError
 from lipdb.performance import Performance
+from lipdb.words import counted
 
 SENTENCE = "the sentence"
 
@@ -44,7 +45,7 @@ def links_editor(name: str, sentence: str, language: str) -> str:
             st.error(str(error), icon=":material/error:")
         count = len(rows)
         if visitor().editor:
-            st.caption(f"{count} row{'s' * (count != 1)} to save." if count else "Double-click a cell to change it; the face follows.")
+            st.caption(f"{counted(count, 'row')} to save." if count else "Double-click a cell to change it; the face follows.")
         show_saved(key, key=key)
         save_button(key, held, rows, note=f"Links of {name}")
     with right:

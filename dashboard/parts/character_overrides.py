@@ -18,6 +18,7 @@ from lipdb.curves.keys import parse_keys
 from lipdb.errors import LipdbError
 from lipdb.languages.examples import Examples
 from lipdb.performance import Performance
+from lipdb.words import counted
 
 TICKED = "characters_ticked"
 """Where a visitor's ticks stay while other pages are shown: the character, and the rows."""
@@ -76,12 +77,12 @@ def _resets(name: str, found: list[Override], chosen: list[Override], seen: int)
     records = database().records
     left, right, _ = st.columns([2, 2, 4])
     count = len(with_siblings(records, chosen))
-    label = f"Reset {count} row{'s' * (count > 1)}" if count else "Reset what is ticked"
+    label = f"Reset {counted(count, 'row')}" if count else "Reset what is ticked"
     if left.button(label, key="characters_reset", icon=":material/undo:", disabled=not chosen, width="stretch"):
         what = ", ".join(one.name for one in chosen[:3]) + (" …" if len(chosen) > 3 else "")
         save_rows(with_siblings(records, chosen), note=f"Reset of {name}: {what}", seen=seen, name=_place(name))
     with right.popover("Reset all", icon=":material/restart_alt:", width="stretch"):
-        st.write(f"All {len(found)} rows go back to what is inherited. History can take that back.")
+        st.write(f"{counted(len(found), 'row goes', 'rows go')} back to what is inherited. History can take that back.")
         if st.button("Reset all of them", key="characters_reset_all", type="primary"):
             save_rows(with_siblings(records, found), note=f"Reset everything of {name}", seen=seen, name=_place(name))
 

@@ -14,6 +14,7 @@ from parts.versions import curves_chart
 from lipdb.curated.tsv import Key, Row
 from lipdb.curves.keys import Keys, parse_keys
 from lipdb.store.conflict import EditConflictError, Versions
+from lipdb.words import counted
 
 Choice = Literal["mine", "theirs", "chosen", "edit"]
 Place = tuple[str, Key]
@@ -60,7 +61,7 @@ def _ask() -> None:
     asked: _Asked = st.session_state[ASKED]
     error = asked.error
     several = len(error.conflicts) > 1
-    what = f"{len(error.conflicts)} row{'s' * several} that you changed too, in revision {error.revision}"
+    what = f"{counted(len(error.conflicts), 'row')} that you changed too, in revision {error.revision}"
     st.write(f"{error.author} changed {what}. Nothing of yours is saved yet.")
     chosen = {}
     for number, versions in enumerate(error.conflicts):
@@ -86,7 +87,7 @@ def _ask() -> None:
 def _save_chosen(asked: _Asked, chosen: Mapping[Place, str | None]) -> None:
     """The button for rows that were chosen one by one. None is chosen to begin with, so that none is lost unseen."""
     left = sum(choice is None for choice in chosen.values())
-    label = f"Choose for {left} more row{'s' * (left > 1)}" if left else "Save as chosen"
+    label = f"Choose for {counted(left, 'more row')}" if left else "Save as chosen"
     with shown_errors():
         if st.button(label, key="conflict_chosen", type="primary", disabled=bool(left), help="Your other changes are saved too."):
             _answer(asked, "chosen", _without(asked, [place for place, choice in chosen.items() if choice == THEIRS]))

@@ -60,11 +60,12 @@ def _film(performance: Performance, suffix: str, key: str) -> bytes | None:
     of, kind, made = st.session_state.get(place, (None, "", b""))
     if of is performance and kind == suffix:
         return made
-    if not st.button(f"Draw {suffix}", key=f"{key}_draw", help="Every frame is drawn; that takes some seconds."):
+    place_of_button = st.empty()
+    if not place_of_button.button(f"Draw {suffix}", key=f"{key}_draw", help="Every frame is drawn; that takes some seconds."):
         return None
-    bar = st.progress(0.0, "drawing")
+    bar = place_of_button.progress(0.0, "Drawing…")
     with reported(lambda what, done, total: bar.progress(min(done / max(total, 1), 1.0), f"{what}: {done} of {total} frames")):
         made = content(performance, suffix)
-    bar.empty()
+    place_of_button.empty()
     st.session_state[place] = performance, suffix, made
     return made

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import streamlit as st
 from parts.language_work import WORK, Work, begin, progress, told
-from parts.session import database
+from parts.session import database, in_words
 
 from lipdb.curated.schema import CODE, USER_SOURCE
 from lipdb.errors import InputError
 from lipdb.languages.begin import TYPING, draft_of_phones, draft_of_voice
 from lipdb.speech.espeak_list import espeak_voices
+from lipdb.words import counted
 
 VOICE, TYPED = "A voice of espeak-ng", "No voice: I type the phones"
 LARGEST = 4_000_000
@@ -125,11 +126,11 @@ def _under_way(mine: Work) -> None:
     draft = mine.draft
     voice = "no voice, its text is read in silence" if draft.silent else f"voice {draft.row['voice']}"
     st.write(
-        f"You are adding **{draft.row['name']}** (`{draft.code}`; {voice}): {len(draft.entries)} phones, "
-        f"{len(draft.sentences)} sample sentences."
+        f"You are adding **{draft.row['name']}** (`{draft.code}`; {voice}): {counted(len(draft.entries), 'phone')}, "
+        f"{counted(len(draft.sentences), 'sample sentence')}."
     )
     for note in draft.notes:
-        st.caption(f":material/info: {note}")
+        st.caption(f":material/info: {in_words(note)}")
     saved = bool(mine.files or mine.revision)
     with st.popover("Begin another language", icon=":material/delete:"):
         st.write("What is saved stays." if saved else f"Nothing of {draft.row['name']} is saved yet; it would be gone.")

@@ -31,6 +31,7 @@ from lipdb.languages.compare import (
 )
 from lipdb.languages.keep import save_merged, save_rows
 from lipdb.paths import expanded, workspace_dir
+from lipdb.words import counted
 
 NOW, PAST, WORKSPACE, FOLDER, ZIP, NONE = (
     "The database now", "The database at a revision", "The workspace folder", "Another folder", "A zip that I upload", "Not known",
@@ -210,14 +211,14 @@ def _rows(mine: Merging) -> None:
 
 
 def _rows_of(changes: Sized) -> str:
-    return f"{len(changes)} row{'s' * (len(changes) != 1)}"
+    return counted(len(changes), "row")
 
 
 def _result(mine: Merging) -> None:
     st.subheader("The result")
     open_conflicts = sum(one.conflict and one.place not in mine.choices for one in mine.found)
     if open_conflicts:
-        st.info(f"{open_conflicts} conflicts wait for your choice.", icon=":material/call_split:")
+        st.info(f"{counted(open_conflicts, 'conflict waits', 'conflicts wait')} for your choice.", icon=":material/call_split:")
         return
     chosen = chosen_rows(mine.found, mine.choices)
     left, right = st.columns(2, gap="large")

@@ -68,7 +68,8 @@ def show_reuse(code: str, _character: str | None) -> None:
             column_config=TOLD,
         )
         if found.own:
-            st.write(f"Only {code} has the common phones **{' '.join(found.own)}**.")
+            phones = "common phone" if len(found.own) == 1 else "common phones"
+            st.write(f"Only {code} has the {phones} **{' '.join(found.own)}**.")
         _new_pairs(code, found)
 
 

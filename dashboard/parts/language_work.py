@@ -93,7 +93,7 @@ def hear(db: Database, mark: str, text: str, language: str, *, key: str) -> None
         said = ", ".join(f"{phone.symbol} → {' '.join(phone.common)}" for phone in made.line.schedule.phones if not phone.silent)
         st.caption(f"**{text}** is said {said}")
         for note in made.line.notes:
-            st.caption(f":material/info: {note}")
+            st.caption(f":material/info: {in_words(note)}")
 
 
 @contextmanager

@@ -17,6 +17,7 @@ from lipdb.coverage.reports.script import Script, decoded, read_script
 from lipdb.decisions import PairUse
 from lipdb.errors import InputError
 from lipdb.progress import reported
+from lipdb.words import counted
 
 LARGEST = 1_000_000
 """Bytes of a script: two long novels."""
@@ -72,12 +73,12 @@ def show_script(script: Script, language: str, character: str, *, silence: bool)
     uses = database().uses(script.frequency(silence=silence).counts, language=language, character=character)
     missing = [gap.use for gap in gaps(uses)]
     spoken = len(script.lines) - len(script.left_out)
-    st.subheader(f"This scene: {len(uses)} pairs, {len(uses) - len(missing)} authored or fitted")
+    st.subheader(f"This scene: {counted(len(uses), 'pair')}, {len(uses) - len(missing)} authored or fitted")
     st.caption(f"{spoken} of {len(script.lines)} lines are read as {database().language(language)['name']}.")
     for line in script.left_out[:LISTED]:
         st.caption(f":material/info: line {line.number} is left out: {line.left_out}")
     if len(script.left_out) > LISTED:
-        st.caption(f":material/info: {len(script.left_out) - LISTED:,} more lines are left out")
+        st.caption(f":material/info: {counted(len(script.left_out) - LISTED, 'more line is', 'more lines are')} left out")
     if not missing:
         st.success("Every pair of this script has authored or fitted curves.", icon=":material/done_all:")
         return

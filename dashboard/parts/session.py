@@ -113,9 +113,9 @@ def greet() -> None:
     warn_of_upgrade()
 
 
-def in_words(error: LipdbError) -> str:
-    """*error* for people before a page: what are options of the command line are words here."""
-    return re.sub(r"(?<!\S)--(?=[a-z])", "", str(error))
+def in_words(told: LipdbError | str) -> str:
+    """An error or a note for people before a page: without what the command line is given, its options and ``text:``."""
+    return re.sub(r"(?<!\S)--(?=[a-z])", "", str(told)).removeprefix("text: ")
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import click
 from lipdb.cli.names import character_option, language_argument
 from lipdb.cli.options import Group, Options, author_option, json_option, print_json, print_listing, print_notes, progress_bar
 from lipdb.errors import DataError
+from lipdb.words import counted
 
 
 @click.group(cls=Group, short_help="List, show, make and check languages.")
@@ -172,9 +173,9 @@ def check_language(options: Options, code: str, folder: Path | None, tidy: bool,
         click.echo(f"{code}: {report.coverage}", err=True)
     if report.errors:
         count = len(report.errors)
-        what = f"{_count(count, 'finding')}; mend {'it' if count == 1 else 'them'}, or see docs/languages.md"
+        what = f"{counted(count, 'finding')}; mend {'it' if count == 1 else 'them'}, or see docs/languages.md"
         raise DataError(f"{report.root / code}: {what}")
-    click.echo(f"{code}: all is well; {_count(len(report.notes), 'note')}", err=True)
+    click.echo(f"{code}: all is well; {counted(len(report.notes), 'note')}", err=True)
 
 
 @language.command("reuse")
@@ -225,7 +226,3 @@ def show_reuse(options: Options, /, code: str, donors: tuple[str, ...], corpora:
     if found.new.counts:
         often = ", ".join(f"{left}-{right}" for left, right in found.new.pairs[:10])
         click.echo(f"new pairs in the text, most frequent first: {often}{', …' if len(found.new) > 10 else ''}", err=True)
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"

@@ -7,6 +7,7 @@ import unicodedata
 from typing import NamedTuple
 
 from lipdb.errors import InputError
+from lipdb.words import counted
 
 LONGEST_WORD = 60
 PIECE = 20
@@ -81,9 +82,11 @@ def clean(text: str) -> Text:
     cleaned = cleaned_up(text)
     notes = []
     if cleaned.emoji:
-        notes.append(f"text: {cleaned.emoji} emoji or pictograms are not read")
+        notes.append(f"text: {counted(cleaned.emoji, 'emoji or pictogram is', 'emoji or pictograms are')} not read")
     if cleaned.broken:
-        notes.append(f"text: {cleaned.broken} characters that are no text (control codes or broken Unicode) are left out")
+        one, several = "character that is no text (control code", "characters that are no text (control codes"
+        what = counted(cleaned.broken, f"{one} or broken Unicode) is", f"{several} or broken Unicode) are")
+        notes.append(f"text: {what} left out")
     if cleaned.long:
         notes.append(f"text: words of more than {LONGEST_WORD} letters are read in pieces")
     return Text(cleaned.text, tuple(notes))

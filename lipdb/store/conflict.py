@@ -9,6 +9,7 @@ from typing import Any
 from lipdb.curated.tsv import Key, Row
 from lipdb.errors import ConflictError
 from lipdb.store.cells import differing
+from lipdb.words import counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,5 +50,5 @@ class EditConflictError(ConflictError):
         self.revision, self.author = revision, author
         self.mine = self.conflicts[0].mine
         self.theirs = self.conflicts[0].theirs
-        more = f" (and {len(self.conflicts) - 1} more rows)" if len(self.conflicts) > 1 else ""
+        more = f" (and {counted(len(self.conflicts) - 1, 'more row')})" if len(self.conflicts) > 1 else ""
         super().__init__(f"{doing}: {author} changed the same in revision {revision}; {self.conflicts[0]}{more}; look at it and try again")
