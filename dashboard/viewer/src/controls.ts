@@ -21,7 +21,8 @@ export interface Acts {
 
 /** What the row shows of the player's state. */
 export interface Shown {
-  time: number;
+  /** null lets stand what stands. */
+  time: number | null;
   duration: number;
   playing: boolean;
   looping: boolean;
@@ -61,6 +62,7 @@ export class Controls {
   private readonly loop: HTMLButtonElement;
   private readonly mute: HTMLButtonElement;
   private readonly views: [ViewName, HTMLButtonElement][];
+  private told = "";
   private last = "";
 
   constructor(private readonly acts: Acts) {
@@ -114,7 +116,8 @@ export class Controls {
   }
 
   show(now: Shown): void {
-    this.time.textContent = `${now.time.toFixed(2)} s of ${now.duration.toFixed(2)} s`;
+    const time = now.time === null ? this.told : `${now.time.toFixed(2)} s of ${now.duration.toFixed(2)} s`;
+    if (time !== this.told) this.time.textContent = this.told = time;
     const key = [now.playing, now.looping, now.muted, now.hushed, now.sounding].join();
     if (key === this.last) return;
     this.last = key;

@@ -1,6 +1,7 @@
 // Waveform, words, phones and pose curves over one time axis, with the playhead on top.
 
 import { spanAt, type Loaded, type Span, type StageData } from "./data";
+import { Playhead } from "./playhead";
 import { rowsOf, xOf, type Axis, type Row, type Theme } from "./rows";
 
 const NARROW = 4; // pixels that a pointer may move and still be a click
@@ -24,14 +25,16 @@ function bright(colour: string): boolean {
   return red + green + blue > 382;
 }
 
-/** Two canvases: what stays is painted when it changes, what moves is painted over it every frame. */
+/** What stays is painted when it changes; what moves (`Playhead`) stands over it, and over all what the pointer hits. */
 export class Lanes {
   readonly root = document.createElement("div");
   private readonly still = document.createElement("canvas");
-  private readonly moving = document.createElement("canvas");
+  private readonly chosen = document.createElement("div");
+  private readonly playhead = new Playhead();
+  private readonly over = document.createElement("div");
   private data: StageData | null = null;
   private rows: Row[] = [];
-  private theme: Theme = { ink: "#222", line: "#ccc", accent: "#0072b2", font: "12px sans-serif", dark: false };
+  private theme: Theme = { ink: "#222", line: "#ccc", font: "12px sans-serif", dark: false };
   private axis: Axis = { from: 0, to: 1, left: LEAST, right: LEAST + 1 };
   private selection: Range | null = null;
   private pressed: { x: number; time: number; selects: boolean; moved: boolean } | null = null;
@@ -40,18 +43,19 @@ export class Lanes {
 
   constructor(private readonly events: LaneEvents) {
     this.root.className = "lanes";
-    this.moving.className = "over";
-    this.moving.tabIndex = 0;
-    this.moving.setAttribute("role", "slider");
-    this.moving.setAttribute("aria-label", "Time");
-    this.moving.setAttribute("aria-valuemin", "0");
-    this.root.append(this.still, this.moving);
-    this.moving.addEventListener("pointerdown", (event) => this.press(event));
-    this.moving.addEventListener("pointermove", (event) => this.drag(event));
-    this.moving.addEventListener("pointerup", (event) => this.release(event));
-    this.moving.addEventListener("pointercancel", () => (this.pressed = null));
-    this.moving.addEventListener("dblclick", (event) => this.chooseWord(event));
-    this.moving.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    this.over.className = "over";
+    this.over.tabIndex = 0;
+    this.over.setAttribute("role", "slider");
+    this.over.setAttribute("aria-label", "Time");
+    this.over.setAttribute("aria-valuemin", "0");
+    this.chosen.className = "chosen";
+    this.root.append(this.still, this.chosen, this.playhead.values, this.playhead.line, this.over);
+    this.over.addEventListener("pointerdown", (event) => this.press(event));
+    this.over.addEventListener("pointermove", (event) => this.drag(event));
+    this.over.addEventListener("pointerup", (event) => this.release(event));
+    this.over.addEventListener("pointercancel", () => (this.pressed = null));
+    this.over.addEventListener("dblclick", (event) => this.chooseWord(event));
+    this.over.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     // The colour of letters changes with the page's theme, and a change of it takes a (very short) transition.
     this.root.addEventListener("transitionend", () => this.paint());
   }
@@ -63,13 +67,18 @@ export class Lanes {
     this.axis.left = this.beside();
     if (longer) [this.axis.from, this.axis.to] = [0, Math.max(data.duration, CLOSEST)];
     this.selection = selection;
-    this.moving.setAttribute("aria-valuemax", data.duration.toFixed(2));
+    this.over.setAttribute("aria-valuemax", data.duration.toFixed(2));
     this.resize();
+  }
+
+  /** Drawn by the processor, as it changes seldom: so it is a part of the page, not a layer that every frame of the screen has to blend. */
+  private get pen(): CanvasRenderingContext2D | null {
+    return this.still.getContext("2d", { willReadFrequently: true });
   }
 
   /** How wide the names are with the values beside them. */
   private beside(): number {
-    const pen = this.still.getContext("2d");
+    const { pen } = this;
     if (!pen) return LEAST;
     this.readTheme();
     pen.font = this.theme.font;
@@ -87,24 +96,23 @@ export class Lanes {
     const ratio = Math.min(devicePixelRatio, 2);
     this.root.style.height = `${this.height}px`;
     this.axis.right = Math.max(width, this.axis.left + 1);
-    for (const canvas of [this.still, this.moving]) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(this.height * ratio);
-      canvas.getContext("2d")?.setTransform(ratio, 0, 0, ratio, 0, 0);
-    }
+    this.still.width = Math.round(width * ratio);
+    this.still.height = Math.round(this.height * ratio);
+    this.pen?.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.playhead.resize(this.axis.left, this.height, ratio);
     this.paint();
   }
 
   private time(event: MouseEvent): number {
     const { from, to, left, right } = this.axis;
-    const x = event.clientX - this.moving.getBoundingClientRect().left;
+    const x = event.clientX - this.over.getBoundingClientRect().left;
     return Math.min(Math.max(from + ((x - left) / (right - left)) * (to - from), 0), this.data?.duration ?? 0);
   }
 
   private press(event: PointerEvent): void {
     if (event.button) return;
-    this.moving.setPointerCapture(event.pointerId);
-    const ruler = event.clientY - this.moving.getBoundingClientRect().top < (this.rows[0]?.height ?? 0);
+    this.over.setPointerCapture(event.pointerId);
+    const ruler = event.clientY - this.over.getBoundingClientRect().top < (this.rows[0]?.height ?? 0);
     this.pressed = { x: event.clientX, time: this.time(event), selects: ruler || event.shiftKey, moved: false };
     this.events.seek(this.pressed.time);
   }
@@ -125,7 +133,7 @@ export class Lanes {
 
   /** Loop the word, phone or common phone that was hit; anywhere else, loop nothing. */
   private chooseWord(event: MouseEvent): void {
-    let y = event.clientY - this.moving.getBoundingClientRect().top;
+    let y = event.clientY - this.over.getBoundingClientRect().top;
     const row = this.rows.find(({ height }) => (y -= height) < 0);
     const spans = this.data?.[row?.name as "words"];
     this.choose(Array.isArray(spans) ? this.spanOf(spans, this.time(event)) : null);
@@ -151,6 +159,7 @@ export class Lanes {
 
   choose(range: Range | null): void {
     this.selection = range && range[1] - range[0] > SHORTEST ? range : null;
+    this.mark();
     this.events.select(this.selection);
   }
 
@@ -182,14 +191,13 @@ export class Lanes {
     this.theme = {
       ink: style.color || "#222",
       line: read("--st-border-color", "#ccc"),
-      accent: read("--st-primary-color", "#0072b2"),
       font: `12px ${style.fontFamily || "sans-serif"}`,
       dark: bright(style.color),
     };
   }
 
   private paint(): void {
-    const pen = this.still.getContext("2d");
+    const { pen } = this;
     if (!pen || !this.data) return;
     this.painted += 1;
     this.readTheme();
@@ -216,35 +224,24 @@ export class Lanes {
       top += row.height;
     }
     pen.restore();
+    this.mark();
+    this.playhead.anew();
   }
 
-  /** Where the playhead stands, the stretch that loops, and the weights beside the names. */
-  playhead(time: number): void {
-    const pen = this.moving.getContext("2d");
-    if (!pen || !this.data) return;
-    const { from, to, left, right } = this.axis;
+  private mark(): void {
+    const [start, end] = (this.selection ?? [0, 0]).map((each) => Math.min(Math.max(xOf(this.axis, each), this.axis.left), this.axis.right));
+    this.chosen.style.left = `${start}px`;
+    this.chosen.style.width = `${end - start}px`;
+  }
+
+  /** Show where the playhead stands, and the weights there if they are `legible` now. */
+  at(time: number, legible: boolean): void {
+    if (!this.data) return;
+    const { from, to } = this.axis;
     const [span, whole] = [to - from, Math.max(this.data.duration, CLOSEST)];
     if ((time > to || time < from) && span < whole - 1e-6) this.scroll(time - span * 0.1, span, whole);
-    pen.clearRect(0, 0, right, this.height);
-    if (this.selection) {
-      const [start, end] = this.selection.map((each) => Math.min(Math.max(xOf(this.axis, each), left), right));
-      pen.globalAlpha = 0.18;
-      pen.fillStyle = this.theme.accent;
-      pen.fillRect(start, 0, end - start, this.height);
-      pen.globalAlpha = 1;
-    }
-    pen.fillStyle = this.theme.accent;
-    pen.fillRect(xOf(this.axis, time) - 0.75, 0, 1.5, this.height);
-    pen.font = this.theme.font;
-    pen.fillStyle = this.theme.ink;
-    pen.textAlign = "right";
-    pen.textBaseline = "middle";
-    let top = 0;
-    for (const { height, value } of this.rows) {
-      const text = value?.(time);
-      if (text) pen.fillText(text, left - EDGE, top + height / 2);
-      top += height;
-    }
+    this.playhead.stand(xOf(this.axis, time));
+    if (legible) this.playhead.write(time, this.rows, this.axis.left - EDGE, this.theme);
   }
 
   /** Tell people who hear the page where time stands. */
@@ -253,7 +250,7 @@ export class Lanes {
       const spans = this.data?.[name as "words"] ?? [];
       return spans[spanAt(spans, time)]?.[2] ?? "";
     });
-    this.moving.setAttribute("aria-valuenow", time.toFixed(2));
-    this.moving.setAttribute("aria-valuetext", [`${time.toFixed(2)} seconds`, ...now.filter(Boolean)].join(", "));
+    this.over.setAttribute("aria-valuenow", time.toFixed(2));
+    this.over.setAttribute("aria-valuetext", [`${time.toFixed(2)} seconds`, ...now.filter(Boolean)].join(", "));
   }
 }

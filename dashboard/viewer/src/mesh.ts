@@ -1,8 +1,7 @@
 // A character's mesh, drawn from one or several sides.
 
 import {
-  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, MeshLambertMaterial, MeshStandardMaterial, PerspectiveCamera,
-  PMREMGenerator, Scene, Vector3, WebGLRenderer,
+  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
   type Group, type Object3D,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -10,9 +9,10 @@ import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { Track, type Loaded } from "./data";
 import { bytes } from "./files";
+import { matt, type Lit } from "./matt";
 import { Morph } from "./morph";
 import { Pace } from "./pace";
-import { placed, SLIM, VIEWS, type Place } from "./views";
+import { across, placed, SLIM, VIEWS, type Place } from "./views";
 
 const FIELD = 24;
 
@@ -33,39 +33,43 @@ function drawsInSoftware(): boolean {
 let software: boolean | null = null;
 
 export class MeshView {
-  readonly canvas = document.createElement("canvas");
+  readonly root = document.createElement("div");
+  private readonly canvas = document.createElement("canvas");
   private weights = new Float32Array(0);
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly cameras = VIEWS.all.map(() => new PerspectiveCamera(FIELD, 1, 0.01, 1000));
   private readonly controls: OrbitControls;
   private model: Group | null = null;
-  private moving: { part: Mesh; morph: Morph }[] = [];
+  private moving: { part: Mesh; morph: Morph; lit?: Lit }[] = [];
   private url = "";
   private angles: number[] = VIEWS.front;
   private centre = new Vector3();
   private radius = 1;
+  private body = new Box3();
   private track = new Track();
   private readonly pace: Pace;
   private drawn = 0;
-  private coarse = false;
+  private sharpness = 1;
   dirty = true;
   /** Kept when there is something to see, or an error to read. */
   ready: Promise<void> = Promise.resolve();
 
   /** `failed` hears why there is no face to see; "" takes it back. Throws where the browser has no WebGL. */
   constructor(public failed: (why: string) => void) {
+    this.root.className = "mesh";
+    this.root.append(this.canvas);
     software ??= drawsInSoftware();
     this.pace = new Pace(software ? 0.5 : 1);
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.light();
-    this.controls = new OrbitControls(this.cameras[0], this.canvas);
+    this.controls = new OrbitControls(this.cameras[0], this.root);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => (this.dirty = true));
     // Without Ctrl the wheel scrolls the page, as everywhere.
-    this.canvas.addEventListener("wheel", (event) => (this.controls.enableZoom = event.ctrlKey), { capture: true, passive: true });
-    this.canvas.addEventListener("dblclick", () => this.look(this.angles));
+    this.root.addEventListener("wheel", (event) => (this.controls.enableZoom = event.ctrlKey), { capture: true, passive: true });
+    this.root.addEventListener("dblclick", () => this.look(this.angles));
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => {
       this.light();
@@ -102,23 +106,23 @@ export class MeshView {
 
   private async load(url: string): Promise<void> {
     this.url = url;
-    this.canvas.classList.add("loading");
+    this.root.classList.add("loading");
     try {
       const loaded = await new GLTFLoader().parseAsync(await bytes(url), "");
       if (this.url !== url) return; // another face was asked for meanwhile
       if (this.model) free(this.model);
       this.model?.removeFromParent();
       this.model = loaded.scene;
-      if (software) dull(this.model);
+      const lit = software ? matt(this.model, this.scene.children) : null;
       this.scene.add(this.model);
       this.moving = [];
       this.model.traverse((part) => {
-        if (part instanceof Mesh && part.morphTargetInfluences) this.moving.push({ part, morph: new Morph(part) });
+        if (part instanceof Mesh && part.morphTargetInfluences) this.moving.push({ part, morph: new Morph(part), lit: lit?.get(part) });
       });
       this.connect();
       this.frame();
       await this.drawOnce();
-      this.canvas.classList.remove("loading");
+      this.root.classList.remove("loading");
     } catch (error) {
       if (this.url !== url) return;
       this.url = "";
@@ -141,7 +145,7 @@ export class MeshView {
   /** Put the cameras where all that moves fits with room around it: of a bust, the head. */
   private frame(): void {
     if (!this.model) return;
-    const whole = new Box3().setFromObject(this.model);
+    const whole = this.body.setFromObject(this.model);
     const moved = new Box3();
     this.model.updateMatrixWorld(true);
     const point = new Vector3();
@@ -175,53 +179,62 @@ export class MeshView {
 
   /** Where the views stand on the canvas. */
   private get places(): Place[] {
-    return placed(this.angles.length, this.canvas.clientWidth || 1, this.canvas.clientHeight || 1);
+    return placed(this.angles.length, this.root.clientWidth || 1, this.root.clientHeight || 1);
   }
 
-  resize(width: number, height: number): void {
+  resize(): void {
     this.places.forEach(({ aspect }, k) => {
       const camera = this.cameras[k];
       if (aspect !== camera.aspect) camera.position.sub(this.centre).setLength(this.distance(aspect)).add(this.centre);
     });
-    this.size(width, height, this.coarse ? this.pace.sharpness : 1);
+    this.dirty = true;
   }
 
-  private size(width: number, height: number, sharpness: number): void {
-    const ratio = Math.min(devicePixelRatio, 2) * sharpness;
-    this.coarse = sharpness < 1;
-    if (this.canvas.width === Math.floor(width * ratio) && this.canvas.height === Math.floor(height * ratio)) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-    this.dirty = true;
+  /** Let the canvas be no wider than what is seen of the face: of a wide player most is background. Returns its left edge. */
+  private fit(places: Place[]): number {
+    const [left, right] = across(this.body, this.cameras, places);
+    const ratio = Math.min(devicePixelRatio, 2) * this.sharpness;
+    const [width, height] = [right - left, this.root.clientHeight];
+    this.canvas.style.left = `${left}px`;
+    this.canvas.style.width = `${width}px`;
+    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) {
+      this.renderer.setDrawingBufferSize(width, height, ratio);
+    }
+    return left;
   }
 
   /** Called for every frame of the screen; `playing` when many of them follow each other. */
   draw(time: number, playing: boolean): void {
     const now = performance.now();
-    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     if (playing) this.pace.frame(now);
-    if (playing || this.pace.sharpness === 1) this.size(width, height, this.pace.sharpness);
+    if (playing || this.pace.sharpness === 1) this.sharpness = this.pace.sharpness;
     this.drawn = now;
     this.track.at(time, this.weights);
-    this.moving.forEach(({ morph }) => morph.apply(this.weights));
-    this.renderer.setScissorTest(true);
-    this.places.forEach(({ left, bottom, width, height, aspect }, k) => {
+    for (const { morph, lit } of this.moving) if (morph.apply(this.weights)) lit?.update();
+    const { places } = this;
+    places.forEach(({ aspect }, k) => {
       const camera = this.cameras[k];
       camera.aspect = aspect;
       camera.near = this.radius / 10;
       camera.far = this.radius * 100;
       camera.updateProjectionMatrix();
-      this.renderer.setViewport(left, bottom, width, height);
-      this.renderer.setScissor(left, bottom, width, height);
-      this.renderer.render(this.scene, camera);
+      camera.updateMatrixWorld();
+    });
+    const edge = this.fit(places);
+    this.renderer.setScissorTest(true);
+    places.forEach(({ left, bottom, width, height }, k) => {
+      this.renderer.setViewport(left - edge, bottom, width, height);
+      this.renderer.setScissor(left - edge, bottom, width, height);
+      this.renderer.render(this.scene, this.cameras[k]);
     });
     this.dirty = false;
   }
 
   /** A picture that was drawn coarse to keep up becomes sharp once nothing moves. */
   rest(): void {
-    if (!this.coarse || performance.now() - this.drawn < REST) return;
-    this.size(this.canvas.clientWidth, this.canvas.clientHeight, 1);
+    if (this.sharpness === 1 || performance.now() - this.drawn < REST) return;
+    this.sharpness = 1;
+    this.dirty = true;
   }
 
   /** The weight of every shape as it was drawn last, how many of them move something, and how sharp playing is. */
@@ -238,7 +251,7 @@ export class MeshView {
 
   /** Whether its face stands, and can be drawn on another page as well. */
   get whole(): boolean {
-    return this.url !== "" && !this.canvas.classList.contains("loading") && !this.renderer.getContext().isContextLost();
+    return this.url !== "" && !this.root.classList.contains("loading") && !this.renderer.getContext().isContextLost();
   }
 
   /** Another one with the same face. */
@@ -257,16 +270,6 @@ export class MeshView {
     this.renderer.dispose();
     this.renderer.forceContextLoss(); // browsers allow sixteen at a time
   }
-}
-
-/** Take the shine off: the processor is ready a second sooner with a material that has none. */
-function dull(model: Object3D): void {
-  model.traverse((part) => {
-    if (!(part instanceof Mesh && part.material instanceof MeshStandardMaterial)) return;
-    const { color, map, vertexColors, side, transparent, opacity, alphaTest } = part.material;
-    part.material.dispose();
-    part.material = new MeshLambertMaterial({ color, map, vertexColors, side, transparent, opacity, alphaTest });
-  });
 }
 
 function free(model: Object3D): void {

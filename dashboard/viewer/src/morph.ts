@@ -29,7 +29,11 @@ export class Morph {
   private readonly names: Record<string, number>;
   private readonly layers: { attribute: BufferAttribute; rest: Float32Array; targets: Sparse[] }[] = [];
   private columns: number[] = [];
+  /** Of the columns, those whose target changes anything here: most parts of a face stand still, or hear one name. */
+  private heard: number[] = [];
   private shown = new Float32Array(0);
+  private stale = false;
+  private readonly turns: boolean;
 
   constructor(part: Mesh) {
     this.names = part.morphTargetDictionary ?? {};
@@ -44,6 +48,7 @@ export class Morph {
       geometry.setAttribute(name, attribute);
       this.layers.push({ attribute, rest, targets: targets.map(sparse) });
     }
+    this.turns = this.layers[1]?.targets.some(({ at }) => at.length) ?? false;
     geometry.morphAttributes = {};
     part.updateMorphTargets();
   }
@@ -59,7 +64,9 @@ export class Morph {
   /** Which target each of `names` moves. */
   connect(names: string[]): void {
     this.columns = names.map((name) => this.names[name] ?? -1);
-    this.shown = new Float32Array(names.length).fill(NaN);
+    this.heard = [...this.columns.keys()].filter((k) => this.layers.some(({ targets }) => targets[this.columns[k]]?.at.length));
+    this.shown = new Float32Array(this.heard.length);
+    this.stale = true;
   }
 
   /** Whether the name at `column` moves anything here. */
@@ -67,19 +74,22 @@ export class Morph {
     return this.columns[column] >= 0;
   }
 
-  apply(weights: Float32Array): void {
-    if (this.shown.every((weight, k) => weight === weights[k])) return;
-    this.shown.set(weights);
+  /** Move the part as `weights` say; whether that turns anything another way. */
+  apply(weights: Float32Array): boolean {
+    if (!this.stale && this.heard.every((column, k) => this.shown[k] === weights[column])) return false;
+    this.stale = false;
+    this.heard.forEach((column, k) => (this.shown[k] = weights[column]));
     for (const { attribute, rest, targets } of this.layers) {
       const values = attribute.array as Float32Array;
       values.set(rest);
-      this.columns.forEach((target, k) => {
-        const weight = weights[k];
-        if (target < 0 || !weight) return;
-        const { at, by } = targets[target];
+      for (const column of this.heard) {
+        const weight = weights[column];
+        if (!weight) continue;
+        const { at, by } = targets[this.columns[column]];
         for (let i = 0; i < at.length; i++) values[at[i]] += weight * by[i];
-      });
+      }
       attribute.needsUpdate = true;
     }
+    return this.turns;
   }
 }

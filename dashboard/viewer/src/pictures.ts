@@ -4,7 +4,7 @@ import { spanAt, type Loaded, type Span } from "./data";
 import { address } from "./files";
 
 export class PictureView {
-  readonly canvas = document.createElement("div");
+  readonly root = document.createElement("div");
   shown = "";
   dirty = true;
   readonly ready = Promise.resolve();
@@ -13,7 +13,7 @@ export class PictureView {
   private urls = "";
 
   constructor() {
-    this.canvas.className = "pictures";
+    this.root.className = "pictures";
   }
 
   show({ face }: Loaded): void {
@@ -23,7 +23,7 @@ export class PictureView {
     if (urls !== this.urls) {
       this.urls = urls;
       this.images = new Map(Object.entries(face.pictures).map(([shape, url]) => [shape, picture(shape, url)]));
-      this.canvas.replaceChildren(...this.images.values());
+      this.root.replaceChildren(...this.images.values());
     }
     this.shown = "";
     this.dirty = true;

@@ -18,7 +18,6 @@ export function xOf(axis: Axis, time: number): number {
 export interface Theme {
   ink: string;
   line: string;
-  accent: string;
   font: string;
   dark: boolean;
 }

@@ -19,6 +19,7 @@ interface Component {
 
 type View = MeshView | PictureView;
 const LATELY = 0.1; // how much of the mean the last frame makes
+const LEGIBLE = 90; // milliseconds: numbers that change more often nobody reads, and each costs a layout
 
 function leave(view: View): void {
   if (view instanceof MeshView) left(view);
@@ -53,6 +54,8 @@ export class Stage {
   private request = 0;
   private last = 0;
   private told = 0;
+  private written = 0;
+  private ran = false;
   /** Milliseconds between frames, and what faces and lanes take of it on the processor: means of the last ones played. */
   private readonly pace = { frame: 0, faces: 0, lanes: 0 };
 
@@ -172,7 +175,7 @@ export class Stage {
         figure.className = "face";
         const view = this.make(face);
         if (view) this.views.push(view);
-        figure.append(view?.canvas ?? element("pictures"), document.createElement("figcaption"));
+        figure.append(view?.root ?? element("pictures"), document.createElement("figcaption"));
         return figure;
       });
       this.faces.replaceChildren(...figures);
@@ -200,7 +203,7 @@ export class Stage {
   }
 
   private resize(): void {
-    this.views.forEach((view) => view.resize(view.canvas.clientWidth, view.canvas.clientHeight));
+    this.views.forEach((view) => view.resize());
     this.lanes.resize();
     this.changed = true;
   }
@@ -211,8 +214,12 @@ export class Stage {
     const { time, playing } = this.clock;
     const passed = now - this.last;
     this.last = now;
+    this.changed ||= playing !== this.ran; // the last numbers of what played may not have been written
+    this.ran = playing;
+    const legible = !playing || now - this.written > LEGIBLE;
+    if (legible) this.written = now;
     this.controls.show({
-      time,
+      time: legible ? time : null,
       playing,
       duration: this.clock.duration,
       looping: this.clock.loop !== null,
@@ -236,7 +243,7 @@ export class Stage {
     this.views.forEach((view) => view.draw(time, playing));
     const between = performance.now();
     this.poses.at(time, this.now);
-    this.lanes.playhead(time);
+    this.lanes.at(time, legible);
     this.drawn = time;
     this.changed = false;
     this.root.dispatchEvent(new CustomEvent("lipdb-time", { bubbles: true, composed: true, detail: { stage: this.component?.data.name, time } }));
