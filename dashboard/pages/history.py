@@ -12,6 +12,7 @@ from lipdb.curves.changed import ChangedPair, changed_pairs
 from lipdb.errors import InputError, LipdbError
 from lipdb.store.history import Change, Revision
 from lipdb.store.search import Wanted
+from lipdb.words import counted
 
 ANY = "any"
 MOST, MOST_ROWS, MOST_PAIRS = 200, 1000, 500
@@ -157,9 +158,7 @@ with shown_errors():
     changes = changes_of(database(), one.number)
     pairs = changed_pairs(changes) if one.number > 1 else []
     if pairs:
-        curves, rows = st.tabs(
-            [f"Curves of {len(pairs)} pair{'s' * (len(pairs) > 1)}", f"All {len(changes)} rows" if len(changes) > 1 else "The row"]
-        )
+        curves, rows = st.tabs([f"Curves of {counted(len(pairs), 'pair')}", f"All {len(changes)} rows" if len(changes) > 1 else "The row"])
         with curves:
             show_curves(one, pairs, wanted)
         with rows:

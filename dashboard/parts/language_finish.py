@@ -17,6 +17,7 @@ from lipdb.languages.trial import Checked, Cost, check_records, cost, price
 from lipdb.paths import workspace_dir
 from lipdb.schedule import SILENCE
 from lipdb.store.cells import flat
+from lipdb.words import counted
 
 MINUTES = 5
 """What an artist needs for a pair."""
@@ -154,10 +155,10 @@ def show_checked(checked: Checked, name: str, *, key: str) -> None:
     """The findings of the kit: what must be mended first, then what a person should look at."""
     notes = len(checked.findings) - checked.errors
     if checked.errors:
-        count = "1 thing is wrong" if checked.errors == 1 else f"{checked.errors} things are wrong"
-        st.error(f"{count} with {name}: mend the rows below.", icon=":material/error:")
+        count = counted(checked.errors, "thing is", "things are")
+        st.error(f"{count} wrong with {name}: mend the rows below.", icon=":material/error:")
     else:
-        st.success(f"{name} is in order; {notes} notes for a person to look at.", icon=":material/check_circle:")
+        st.success(f"{name} is in order; {counted(notes, 'note')} for a person to look at.", icon=":material/check_circle:")
     if checked.report.coverage is not None:
         st.caption(f":material/analytics: {checked.report.coverage}.")
     if checked.findings:
@@ -183,7 +184,8 @@ def step_save(mine: Work) -> None:
     draft, own = mine.draft, mine.own()
     doubtful = sum(one.doubtful for one in draft.entries.values())
     if doubtful:
-        st.caption(f":material/visibility: {doubtful} phones are still marked `review:`; that is kept in their comments.")
+        marked = counted(doubtful, "phone is", "phones are")
+        st.caption(f":material/visibility: {marked} still marked `review:`; that is kept in the comments.")
     left, right = st.columns(2, gap="large")
     with left:
         st.subheader("As text, for review with git")

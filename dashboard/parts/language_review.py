@@ -14,6 +14,7 @@ from lipdb.languages.begin import TYPING, typed_entries
 from lipdb.languages.draft import Entry
 from lipdb.languages.trial import Trial
 from lipdb.schedule import SILENCE
+from lipdb.words import counted
 
 LOOK, DONE, PROPOSED = "⚠ look", "✓ decided", "proposed"
 
@@ -24,7 +25,7 @@ def step_phones(mine: Work) -> None:
     doubtful = sum(one.doubtful for one in draft.entries.values())
     decided = sum(one.decided for one in draft.entries.values())
     todo = f"**{doubtful} to look at**" if doubtful else "none left that must be looked at"
-    st.write(f"{len(draft.entries)} phones, {todo}, {decided} decided by you. The others map as the rule says.")
+    st.write(f"{counted(len(draft.entries), 'phone')}, {todo}, {decided} decided by you. The others map as the rule says.")
     left, right = st.columns([3, 2], gap="medium")
     with left:
         _table(mine)
@@ -51,7 +52,7 @@ def _table(mine: Work) -> None:
             "": LOOK if one.doubtful else DONE if one.decided else PROPOSED,
             "phone": one.phone.ipa,
             "common": " ".join(one.common),
-            "sure": one.phone.proposal.confidence,
+            "sure": 100 * one.phone.proposal.confidence,
             "second": " ".join(one.phone.proposal.second),
             "example": one.example,
             "heard": one.phone.count,
@@ -77,7 +78,7 @@ def _table(mine: Work) -> None:
             "": st.column_config.TextColumn(width=75),
             "phone": st.column_config.TextColumn(width=60),
             "common": st.column_config.TextColumn(width=75, help="The classes of sounds that look alike to which it is mapped"),
-            "sure": st.column_config.ProgressColumn(min_value=0, max_value=1, format="percent", width=80, color="blue"),
+            "sure": st.column_config.ProgressColumn(min_value=0, max_value=100, format="%.0f%%", width=80, color="blue"),
             "second": st.column_config.TextColumn("2nd choice", width=75),
             "example": st.column_config.TextColumn(width=100),
             "heard": st.column_config.NumberColumn(width=60, help="How often the voice said it in the text"),
@@ -127,7 +128,7 @@ def _proposal(entry: Entry) -> None:
     if entry.doubtful:
         st.warning(f"Look at this one: {entry.phone.review}.", icon=":material/visibility:")
     second = f" Second choice: **{' '.join(proposal.second)}**." if proposal.second else ""
-    heard = f" Heard {entry.phone.count}x in {', '.join(entry.phone.labels[:4])}." if entry.phone.count else ""
+    heard = f" Heard {entry.phone.count}× as {', '.join(entry.phone.labels[:4])}." if entry.phone.count else ""
     st.caption(f"Proposed **{' '.join(proposal.common)}**. {entry.phone.reason}.{second}{heard}")
 
 

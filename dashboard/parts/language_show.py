@@ -108,9 +108,9 @@ def _edit_phone(beside: st.delta_generator.DeltaGenerator, code: str, row: Row) 
         st.rerun()
     if changed:
         st.caption(":material/edit: Not saved yet; it is heard as you changed it.")
-    example = row["example"].split(",")[0].split()[0]
     trial = _tried(code, edited) if changed and common else db
-    hear(trial, f"{db.store.revision} {edited}", example, code, key="languages_hear")
+    if words := (edited["example"] or row["example"]).replace(",", " ").split():
+        hear(trial, f"{db.store.revision} {edited}", words[0], code, key="languages_hear")
 
 
 def _tried(code: str, row: Row) -> Database:
