@@ -4,6 +4,7 @@ from pathlib import Path
 
 import streamlit as st
 from parts.ahead import fetch_ahead
+from parts.leaving import tell_browser
 from parts.session import greet
 
 # An icon of its own: Streamlit would fetch one by name from the internet.
@@ -24,5 +25,6 @@ page = st.navigation(
     ]
 )
 greet()
+tell_browser()  # before the page, which may stop
 page.run()
 fetch_ahead()

@@ -43,7 +43,6 @@ def chosen() -> tuple[str, str, str]:
         "Sentence",
         min(samples, key=len, default="mama"),
         key=f"characters_sentence_{language}",
-        max_chars=500,
         persist_state="session",
     )
     st.query_params["character"] = st.session_state[ADDRESS] = name

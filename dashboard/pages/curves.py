@@ -9,6 +9,7 @@ import streamlit as st
 from parts import pairs
 from parts.conflict import Choice, ask_again, save_or_ask
 from parts.keys import Held, discard, editor, held, rebase, unsaved
+from parts.leaving import tell_browser
 from parts.lines import spoken
 from parts.saved import show_saved, tell
 from parts.session import database, shown_errors, visitor
@@ -70,7 +71,7 @@ def show_sentence(place: Place, records: Records) -> None:
     """A sentence that contains the pair, with the curves as they are now, saved or not."""
     found = pairs.examples(database(), place.language, place.character).containing(place.left, place.right)
     if not found:
-        text = st.text_input("No sample sentence has this pair. Write one:", key=f"curves_text_{place.language}", max_chars=500)
+        text = st.text_input("No sample sentence has this pair. Write one:", key=f"curves_text_{place.language}")
         if not text.strip():
             return
     else:
@@ -195,6 +196,7 @@ def work(place: Place) -> None:
     """The part of the page that runs again with every key that is moved."""
     with shown_errors():
         now = held(place, lambda: pairs.usual(place))
+        tell_browser()
         records = now.draft.applied(database().records, now.curves)
         loop = Rehearsal.of(place.left, place.right, now.lengths)
         left, right = st.columns([3, 2], gap="medium")

@@ -57,7 +57,7 @@ def ask() -> tuple[Line | None, str, Beside | None]:
         help="Another character, or this one as the data were before an edit, on the same clock.",
     )
     if source == "Text":
-        text = st.text_input("Sentence", example(language), key=f"say_text_{language}", max_chars=2000)
+        text = st.text_input("Sentence", example(language), key=f"say_text_{language}")
         return (spoken(text, language, voice) if text.strip() else None), character, beside
     return _recording(language), character, beside
 

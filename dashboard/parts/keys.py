@@ -8,6 +8,7 @@ from secrets import token_hex
 from typing import Any
 
 import streamlit as st
+from parts.leaving import lost_by_leaving
 from parts.session import Edited, database, visitor
 from parts.viewer import component
 
@@ -101,6 +102,7 @@ def discard(place: Place) -> None:
     st.session_state.get(HELD, {}).pop(place, None)
 
 
+@lost_by_leaving
 def unsaved() -> list[Place]:
     """Where the visitor has changes that are not saved."""
     return [place for place, one in st.session_state.get(HELD, {}).items() if one.changed]

@@ -131,10 +131,9 @@ def _under_way(mine: Work) -> None:
     )
     for note in draft.notes:
         st.caption(f":material/info: {in_words(note)}")
-    saved = bool(mine.files or mine.revision)
     with st.popover("Begin another language", icon=":material/delete:"):
-        st.write("What is saved stays." if saved else f"Nothing of {draft.row['name']} is saved yet; it would be gone.")
-        if st.button("Put it away" if saved else "Throw it away", key="languages_discard", type="primary"):
+        st.write("What is saved stays." if mine.kept else f"Nothing of {draft.row['name']} is saved yet; it would be gone.")
+        if st.button("Put it away" if mine.kept else "Throw it away", key="languages_discard", type="primary"):
             del st.session_state[WORK]
             for field in ("languages_name", "languages_code", "languages_typed", "languages_text", "languages_voice"):
                 st.session_state.pop(field, None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import streamlit as st
 from parts.conflict import Choice, save_or_ask
+from parts.leaving import lost_by_leaving
 from parts.session import Edited, database
 
 SAVED = "languages_saved"
@@ -25,13 +26,24 @@ def forget(place: str) -> None:
 def fill(place: str, fields: dict[str, object]) -> None:
     """Show *fields*, unless the visitor has typed something there that is not saved yet."""
     kept = st.session_state.setdefault(f"{place}_from", fields)
-    typed = any(st.session_state.get(f"{place}_{name}", value) != value for name, value in kept.items())
-    if kept != fields and not typed:
+    if kept != fields and not _typed(place):
         forget(place)
         st.session_state[f"{place}_from"] = fields
     seen(place)
     for name, value in fields.items():
         st.session_state.setdefault(f"{place}_{name}", value)
+
+
+def _typed(place: str) -> bool:
+    """Whether the visitor has something else there than what was saved when they began."""
+    kept: dict[str, object] = st.session_state.get(f"{place}_from", {})
+    return any(st.session_state.get(f"{place}_{name}", value) != value for name, value in kept.items())
+
+
+@lost_by_leaving
+def unsaved() -> list[str]:
+    """The places at which the visitor has typed something that is not saved."""
+    return [place for place in st.session_state.get("languages_seen", {}) if _typed(place)]
 
 
 def picked(key: str, names: list[str], target: str) -> None:

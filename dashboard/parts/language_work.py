@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import streamlit as st
+from parts.leaving import lost_by_leaving
 from parts.session import database, in_words, visitor
 from parts.stage import stage
 
@@ -40,6 +41,11 @@ class Work:
     files: list[Path] = field(default_factory=list)
     revision: int | None = None
 
+    @property
+    def kept(self) -> bool:
+        """Whether it was saved, as text or into the database."""
+        return bool(self.files or self.revision)
+
     def own(self) -> dict[str, dict[Key, Row]]:
         """The rows of the draft, as they would be saved now."""
         return self.draft.tables(database().records, author=visitor().name)
@@ -57,6 +63,13 @@ def work() -> Work | None:
     """What the visitor is working on."""
     found: Work | None = st.session_state.get(WORK)
     return found
+
+
+@lost_by_leaving
+def unsaved() -> bool:
+    """Whether the language that the visitor is adding is kept nowhere yet."""
+    mine = work()
+    return mine is not None and not mine.kept
 
 
 def begin(draft: Draft) -> None:

@@ -18,6 +18,8 @@ from lipdb.store.history import Change
 
 EXAMPLES = {"en": "Hello! Bob may find five blue whales."}
 """What a language begins with on the front page; the others with their shortest sample."""
+LONGEST = 2000
+"""Letters of a sentence: two minutes of speech."""
 LARGEST = 20_000_000
 """Bytes that an uploaded file may have: three and a half minutes of speech in studio quality."""
 
@@ -45,6 +47,9 @@ def _spoken(text: str, language: str, voice: str, revision: int) -> Line:  # noq
 
 def spoken(text: str, language: str, voice: str = "") -> Line:
     """*text* as *language*'s own voice or another says it. Raises `LipdbError`."""
+    # Not max_chars of the field: Streamlit ignores what is pasted beyond it, without a word.
+    if len(text) > LONGEST:
+        raise InputError(f"the text has {len(text):,} letters; give up to {LONGEST:,} at once here, and a longer one to `lipdb say`")
     return _spoken(text, language, voice, database().store.revision)
 
 

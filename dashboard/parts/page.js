@@ -1,7 +1,6 @@
-// A button does once what it does: the second click of a double click is none, nor is one while the page still does what the first asked.
-// Streamlit would begin anew beside what is under way, or click what has come to stand there meanwhile: Undo, which then takes back an undo.
-if (!window.lipdbClicksOnce) {
-  window.lipdbClicksOnce = true;
+if (!window.lipdbUnsaved) {
+  // A button does once what it does: the second click of a double click is none, nor is one while the page still does what the first asked.
+  // Streamlit would begin anew beside what is under way, or click what has come to stand there meanwhile: Undo, which then takes back an undo.
   let busy = null;
   const running = () => document.querySelector('[data-testid="stApp"]')?.dataset.testScriptState === "running";
   document.addEventListener("click", (event) => {
@@ -14,4 +13,17 @@ if (!window.lipdbClicksOnce) {
       busy = button;
     }
   }, true);
+
+  // Nothing unsaved is lost without a word: parts/leaving.py says in which session something is.
+  let held = {};
+  window.lipdbUnsaved = ([session, unsaved]) => {
+    if (held.unsaved && held.session !== session) {
+      const lost = "The dashboard was restarted, or could not be reached for some minutes. What you had not saved is gone.";
+      setTimeout(() => alert(lost)); // after the page is drawn
+    }
+    held = { session, unsaved };
+  };
+  window.addEventListener("beforeunload", (event) => {
+    if (held.unsaved) event.preventDefault();
+  });
 }

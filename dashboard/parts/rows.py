@@ -13,6 +13,7 @@ from typing import Any, Literal
 import pandas as pd
 import streamlit as st
 from parts.conflict import Choice, save_or_ask
+from parts.leaving import lost_by_leaving
 from parts.lines import state
 from parts.saved import tell
 from parts.session import Edited, database, visitor
@@ -77,9 +78,10 @@ def hold(name: str, title: str, load: Callable[[], dict[str, Cells]]) -> Held:
     return mine[name]
 
 
+@lost_by_leaving
 def unsaved(*, other_than: str = "") -> list[str]:
     """What the visitor has changed and not saved, in editors *other than* the one called so."""
-    return [held.title for name, held in st.session_state.get(HELD, {}).items() if name != other_than and held.edited != held.tables]
+    return [held.title for name, held in st.session_state.get(HELD, {}).items() if name != other_than and held.changed]
 
 
 def table(held: Held, which: str, columns: Mapping[str, Any], *, rows: Literal["fixed", "dynamic"]) -> Cells:
