@@ -6,7 +6,7 @@ from urllib.parse import parse_qs, urlparse
 
 import numpy as np
 import pytest
-from browser import at_rest, seek, settled, stage_state, until
+from browser import at_rest, eventually, seek, settled, stage_state, until
 
 import lipdb
 
@@ -164,6 +164,24 @@ def test_lanes_are_painted_when_they_change_and_not_while_they_play(front) -> No
     until(front, "stage.lipdb.state.painted > argument", painted)
     assert front.locator(".stage .lanes").evaluate("lanes => getComputedStyle(lanes).color") != ink
     front.emulate_media(color_scheme="light")
+
+
+# How bright the letters are: what is written at more than half its strength.
+INK = """canvas => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return Math.max(-1, ...data.filter((_, k) => k % 4 === 0 && data[k + 3] > 128));
+}"""
+
+
+def test_the_values_beside_the_lanes_take_the_ink_of_another_theme_while_nothing_plays(front) -> None:
+    settled(front)
+    seek(front, 0.5)
+    values = front.locator(".stage .values")
+    eventually(front, lambda: 0 <= values.evaluate(INK) < 100, "values in the dark ink of a light page")
+    front.emulate_media(color_scheme="dark")
+    eventually(front, lambda: values.evaluate(INK) > 200, "values in the light ink of a dark page")
+    front.emulate_media(color_scheme="light")
+    eventually(front, lambda: 0 <= values.evaluate(INK) < 100, "values in dark ink again")
 
 
 def test_a_click_into_the_lanes_explains_the_instant_and_leads_to_its_pair(app, front) -> None:

@@ -37,6 +37,7 @@ export class Lanes {
   private theme: Theme = { ink: "#222", line: "#ccc", font: "12px sans-serif", dark: false };
   private axis: Axis = { from: 0, to: 1, left: LEAST, right: LEAST + 1 };
   private selection: Range | null = null;
+  private shown = 0;
   private pressed: { x: number; time: number; selects: boolean; moved: boolean } | null = null;
   /** Times that all has been painted anew. */
   painted = 0;
@@ -57,7 +58,10 @@ export class Lanes {
     this.over.addEventListener("dblclick", (event) => this.chooseWord(event));
     this.over.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     // The colour of letters changes with the page's theme, and a change of it takes a (very short) transition.
-    this.root.addEventListener("transitionend", () => this.paint());
+    this.root.addEventListener("transitionend", () => {
+      this.paint();
+      this.at(this.shown, true); // while nothing plays, nobody else asks
+    });
   }
 
   show(data: StageData, faces: Loaded[], peaks: Int8Array, selection: Range | null): void {
@@ -237,6 +241,7 @@ export class Lanes {
   /** Show where the playhead stands, and the weights there if they are `legible` now. */
   at(time: number, legible: boolean): void {
     if (!this.data) return;
+    this.shown = time;
     const { from, to } = this.axis;
     const [span, whole] = [to - from, Math.max(this.data.duration, CLOSEST)];
     if ((time > to || time < from) && span < whole - 1e-6) this.scroll(time - span * 0.1, span, whole);

@@ -1,25 +1,20 @@
 // A character's mesh, drawn from one or several sides.
 
 import {
-  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer,
-  type Group, type Object3D,
+  ACESFilmicToneMapping, Box3, DirectionalLight, HemisphereLight, Material, Mesh, PMREMGenerator, Scene, Vector3, WebGLRenderer, type Group, type Object3D,
 } from "three";
-import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { Cameras } from "./cameras";
 import { Track, type Loaded } from "./data";
 import { bytes } from "./files";
 import { matt, type Lit } from "./matt";
 import { Morph } from "./morph";
 import { Pace } from "./pace";
-import { across, placed, SLIM, VIEWS, type Place } from "./views";
 
-const FIELD = 24;
-
-/** How much more than what moves is shown. */
-const ROOM = 0.66;
 const MIRRORED = 64; // pixels of each side of the room that faces mirror; skin shows no more
 const REST = 500; // milliseconds of standing still after which a coarse picture is drawn once more, sharp
+const ARRIVING = 700; // milliseconds in which a page that one has just come to is drawn itself
 
 /** Whether pictures are drawn by the processor, which needs a hundred times as long as a graphics card. */
 function drawsInSoftware(): boolean {
@@ -38,19 +33,16 @@ export class MeshView {
   private weights = new Float32Array(0);
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly cameras = VIEWS.all.map(() => new PerspectiveCamera(FIELD, 1, 0.01, 1000));
-  private readonly controls: OrbitControls;
+  private readonly cameras = new Cameras(this.root, () => (this.dirty = true));
   private model: Group | null = null;
   private moving: { part: Mesh; morph: Morph; lit?: Lit }[] = [];
   private url = "";
-  private angles: number[] = VIEWS.front;
-  private centre = new Vector3();
-  private radius = 1;
-  private body = new Box3();
   private track = new Track();
   private readonly pace: Pace;
   private drawn = 0;
   private sharpness = 1;
+  private keeps = 0;
+  private stretched = false;
   dirty = true;
   /** Kept when there is something to see, or an error to read. */
   ready: Promise<void> = Promise.resolve();
@@ -64,12 +56,6 @@ export class MeshView {
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !software, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.light();
-    this.controls = new OrbitControls(this.cameras[0], this.root);
-    this.controls.enablePan = false;
-    this.controls.addEventListener("change", () => (this.dirty = true));
-    // Without Ctrl the wheel scrolls the page, as everywhere.
-    this.root.addEventListener("wheel", (event) => (this.controls.enableZoom = event.ctrlKey), { capture: true, passive: true });
-    this.root.addEventListener("dblclick", () => this.look(this.angles));
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => {
       this.light();
@@ -120,7 +106,7 @@ export class MeshView {
         if (part instanceof Mesh && part.morphTargetInfluences) this.moving.push({ part, morph: new Morph(part), lit: lit?.get(part) });
       });
       this.connect();
-      this.frame();
+      this.frame(loaded.scene);
       await this.drawOnce();
       this.root.classList.remove("loading");
     } catch (error) {
@@ -132,7 +118,7 @@ export class MeshView {
 
   /** Draw what is there and wait for it: the first picture can take seconds, and nothing should sound meanwhile. */
   private async drawOnce(): Promise<void> {
-    await this.renderer.compileAsync(this.scene, this.cameras[0]);
+    await this.renderer.compileAsync(this.scene, this.cameras.of(0));
     this.draw(0, false);
     this.renderer.getContext().readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
   }
@@ -142,65 +128,50 @@ export class MeshView {
     this.dirty = true;
   }
 
-  /** Put the cameras where all that moves fits with room around it: of a bust, the head. */
-  private frame(): void {
-    if (!this.model) return;
-    const whole = this.body.setFromObject(this.model);
+  /** Show all that moves. */
+  private frame(model: Group): void {
     const moved = new Box3();
-    this.model.updateMatrixWorld(true);
+    model.updateMatrixWorld(true);
     const point = new Vector3();
     for (const { part, morph } of this.moving) {
       for (const at of morph.moved()) moved.expandByPoint(point.fromArray(at).applyMatrix4(part.matrixWorld));
     }
-    const size = whole.getSize(new Vector3()).length() / 2;
-    (moved.isEmpty() ? whole : moved).getCenter(this.centre);
-    this.radius = moved.isEmpty() ? size : Math.min(moved.getSize(new Vector3()).length() * ROOM, size);
-    this.look(this.angles);
+    this.cameras.frame(new Box3().setFromObject(model), moved);
   }
 
   look(angles: number[]): void {
-    this.angles = angles;
-    this.places.forEach(({ aspect }, k) => {
-      const angle = (angles[k] * Math.PI) / 180;
-      const camera = this.cameras[k];
-      camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(this.distance(aspect)).add(this.centre);
-      camera.lookAt(this.centre);
-    });
-    this.controls.target.copy(this.centre);
-    this.controls.update();
-    this.dirty = true;
-  }
-
-  /** As far away as a picture of this shape needs. */
-  private distance(aspect: number): number {
-    const tall = (FIELD / 2) * (Math.PI / 180);
-    return (this.radius / Math.sin(Math.atan(Math.tan(tall) * Math.min(aspect * SLIM, 1)))) * 0.86;
-  }
-
-  /** Where the views stand on the canvas. */
-  private get places(): Place[] {
-    return placed(this.angles.length, this.root.clientWidth || 1, this.root.clientHeight || 1);
+    this.cameras.look(angles);
   }
 
   resize(): void {
-    this.places.forEach(({ aspect }, k) => {
-      const camera = this.cameras[k];
-      if (aspect !== camera.aspect) camera.position.sub(this.centre).setLength(this.distance(aspect)).add(this.centre);
-    });
+    this.cameras.resize();
     this.dirty = true;
   }
 
-  /** Let the canvas be no wider than what is seen of the face: of a wide player most is background. Returns its left edge. */
-  private fit(places: Place[]): number {
-    const [left, right] = across(this.body, this.cameras, places);
+  /**
+   * Let the canvas go from `left` to `right`, no wider than what is seen of the face: of a wide player most is background. Returns
+   * its left edge, and how much wider and taller than it is seen the picture has to be drawn to fill its pixels.
+   */
+  private fit([left, right]: [number, number]): [left: number, wider: number, taller: number] {
     const ratio = Math.min(devicePixelRatio, 2) * this.sharpness;
-    const [width, height] = [right - left, this.root.clientHeight];
+    const [width, height] = [right - left, this.root.clientHeight || 1];
     this.canvas.style.left = `${left}px`;
     this.canvas.style.width = `${width}px`;
-    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) {
+    this.stretched = this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio);
+    if (this.stretched && this.root.isConnected && performance.now() > this.keeps) {
       this.renderer.setDrawingBufferSize(width, height, ratio);
+      this.stretched = false;
     }
-    return left;
+    const pixels = this.renderer.getPixelRatio();
+    return [left, this.canvas.width / pixels / width, this.canvas.height / pixels / height];
+  }
+
+  /**
+   * Come to another page. The canvas keeps its size for a while, where the processor draws: a new one waits until all is drawn that
+   * was asked for before, a third of a second while the page itself comes.
+   */
+  arrive(): void {
+    if (software) this.keeps = performance.now() + ARRIVING;
   }
 
   /** Called for every frame of the screen; `playing` when many of them follow each other. */
@@ -211,30 +182,24 @@ export class MeshView {
     this.drawn = now;
     this.track.at(time, this.weights);
     for (const { morph, lit } of this.moving) if (morph.apply(this.weights)) lit?.update();
-    const { places } = this;
-    places.forEach(({ aspect }, k) => {
-      const camera = this.cameras[k];
-      camera.aspect = aspect;
-      camera.near = this.radius / 10;
-      camera.far = this.radius * 100;
-      camera.updateProjectionMatrix();
-      camera.updateMatrixWorld();
-    });
-    const edge = this.fit(places);
+    const { places } = this.cameras;
+    const [edge, wider, taller] = this.fit(this.cameras.aim(places));
     this.renderer.setScissorTest(true);
     places.forEach(({ left, bottom, width, height }, k) => {
-      this.renderer.setViewport(left - edge, bottom, width, height);
-      this.renderer.setScissor(left - edge, bottom, width, height);
-      this.renderer.render(this.scene, this.cameras[k]);
+      const part = [(left - edge) * wider, bottom * taller, width * wider, height * taller] as const;
+      this.renderer.setViewport(...part);
+      this.renderer.setScissor(...part);
+      this.renderer.render(this.scene, this.cameras.of(k));
     });
     this.dirty = false;
   }
 
-  /** A picture that was drawn coarse to keep up becomes sharp once nothing moves. */
+  /** A picture that was drawn coarse to keep up, or to come at once, becomes sharp once nothing moves. */
   rest(): void {
-    if (this.sharpness === 1 || performance.now() - this.drawn < REST) return;
-    this.sharpness = 1;
-    this.dirty = true;
+    const now = performance.now();
+    const coarse = this.sharpness !== 1 && now - this.drawn >= REST;
+    if (coarse) this.sharpness = 1;
+    this.dirty = coarse || (this.stretched && now > this.keeps);
   }
 
   /** The weight of every shape as it was drawn last, how many of them move something, and how sharp playing is. */
@@ -257,6 +222,7 @@ export class MeshView {
   /** Another one with the same face. */
   async twin(): Promise<MeshView> {
     const made = new MeshView(() => {});
+    made.renderer.setDrawingBufferSize(this.canvas.width, this.canvas.height, 1);
     made.ready = made.load(this.url);
     await made.ready;
     return made;
@@ -264,7 +230,7 @@ export class MeshView {
 
   dispose(): void {
     this.url = "";
-    this.controls.dispose();
+    this.cameras.dispose();
     if (this.model) free(this.model);
     this.scene.environment?.dispose();
     this.renderer.dispose();

@@ -15,6 +15,7 @@ export function taken(url: string, failed: (why: string) => void): MeshView {
   if (!found) return new MeshView(failed);
   spare = spare.filter((view) => view !== found);
   found.failed = failed;
+  found.arrive();
   return found;
 }
 

@@ -2,13 +2,10 @@
 
 import { Clock } from "./clock";
 import { Controls } from "./controls";
-import { loaded, Track, type FaceData, type Loaded, type StageData } from "./data";
+import { loaded, Track, type Loaded, type StageData } from "./data";
+import { Faces } from "./faces";
 import { bytes } from "./files";
 import { Lanes } from "./lanes";
-import { MeshView } from "./mesh";
-import { PictureView } from "./pictures";
-import { double, left, taken } from "./spare";
-import { VIEWS, type ViewName } from "./views";
 
 interface Component {
   data: StageData;
@@ -17,14 +14,8 @@ interface Component {
   setTriggerValue(name: string, value: unknown): void;
 }
 
-type View = MeshView | PictureView;
 const LATELY = 0.1; // how much of the mean the last frame makes
 const LEGIBLE = 90; // milliseconds: numbers that change more often nobody reads, and each costs a layout
-
-function leave(view: View): void {
-  if (view instanceof MeshView) left(view);
-  else view.dispose();
-}
 
 function element(name: string, role = ""): HTMLDivElement {
   const made = document.createElement("div");
@@ -37,19 +28,16 @@ function element(name: string, role = ""): HTMLDivElement {
 export class Stage {
   readonly clock: Clock;
   private readonly audio = document.createElement("audio");
-  private readonly faces = element("faces");
+  private readonly faces = new Faces((why) => this.complain(why));
   private readonly trouble = element("trouble", "status");
   private readonly controls: Controls;
   private readonly lanes: Lanes;
   private readonly watcher: ResizeObserver;
-  private views: View[] = [];
-  private kinds = "";
   private poses = new Track();
   private now = new Float32Array(0);
   private id = "";
   private drawn = -1;
   private changed = true;
-  private view: ViewName = "front";
   private component: Component | null = null;
   private request = 0;
   private last = 0;
@@ -78,10 +66,10 @@ export class Stage {
       loop: () => this.lanes.choose(this.clock.loop ? null : this.lanes.around(this.clock.time)),
       mute: () => this.mute(),
       zoom: (factor) => this.zoom(factor),
-      look: (view) => this.look(view),
+      look: (view) => this.faces.look(view),
     });
     const scene = element("scene");
-    scene.append(this.faces, this.controls.look);
+    scene.append(this.faces.root, this.controls.look);
     root.replaceChildren(scene, this.controls.root, this.trouble, this.lanes.root, this.audio);
     root.addEventListener("keydown", (event) => this.controls.key(event));
     this.watcher = new ResizeObserver(() => this.resize());
@@ -114,11 +102,6 @@ export class Stage {
     this.clock.seek((Math.round(this.clock.time * this.poses.fps) + frames) / this.poses.fps);
   }
 
-  private look(view: ViewName): void {
-    this.view = view;
-    this.views.forEach((each) => each.look(VIEWS[view]));
-  }
-
   update(component: Component): void {
     this.component = component;
     const { data } = component;
@@ -149,7 +132,8 @@ export class Stage {
     this.now = new Float32Array(this.poses.names.length);
     const other = this.clock.load(data.audio, data.duration);
     this.clock.loop = data.loop ?? (other ? null : this.clock.loop);
-    this.stand(faces);
+    this.faces.show(faces);
+    this.controls.turnable(this.faces.turnable);
     this.lanes.show(data, faces, peaks, this.clock.loop);
     this.changed = true;
     if (data.autoplay && other) void this.begin(data.id);
@@ -158,52 +142,14 @@ export class Stage {
   /** Play a new line once its faces stand, unless the visitor was quicker or wants nothing to move by itself. */
   private async begin(id: string): Promise<void> {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
-    await Promise.all(this.views.map((view) => view.ready));
+    await this.faces.ready;
     if (id !== this.id || this.clock.playing || this.clock.time > 0) return;
     performance.mark("lipdb speaks");
     this.clock.play();
   }
 
-  private stand(faces: Loaded[]): void {
-    const kinds = faces.map(({ face }) => face.kind).join(" ");
-    if (kinds !== this.kinds) {
-      this.views.forEach(leave);
-      this.views = [];
-      this.kinds = kinds;
-      const figures = faces.map(({ face }) => {
-        const figure = document.createElement("figure");
-        figure.className = "face";
-        const view = this.make(face);
-        if (view) this.views.push(view);
-        figure.append(view?.root ?? element("pictures"), document.createElement("figcaption"));
-        return figure;
-      });
-      this.faces.replaceChildren(...figures);
-    }
-    [...this.faces.children].forEach((figure, k) => {
-      const { title } = faces[k].face;
-      figure.firstElementChild?.setAttribute("role", "img");
-      figure.firstElementChild?.setAttribute("aria-label", `${title}, speaking`);
-      if (figure.lastElementChild) figure.lastElementChild.textContent = title;
-    });
-    this.controls.turnable(this.views.some((view) => view instanceof MeshView));
-    this.views.forEach((view, k) => view.show(faces[k]));
-    this.resize();
-    this.look(this.view);
-  }
-
-  private make(face: FaceData): View | null {
-    if (face.kind === "pictures") return new PictureView();
-    try {
-      return taken(face.url, (why) => this.complain(why));
-    } catch {
-      this.complain("This browser draws no 3D (WebGL is off or not there): turn on hardware acceleration, or choose the flat mouth.");
-      return null;
-    }
-  }
-
   private resize(): void {
-    this.views.forEach((view) => view.resize());
+    this.faces.resize();
     this.lanes.resize();
     this.changed = true;
   }
@@ -231,16 +177,12 @@ export class Stage {
       this.told = now;
       this.lanes.tell(time);
     }
-    if (time === this.drawn && !this.changed && !this.views.some((view) => view.dirty)) {
-      for (const view of this.views) {
-        if (!(view instanceof MeshView)) continue;
-        view.rest();
-        double(view);
-      }
+    if (time === this.drawn && !this.changed && !this.faces.dirty) {
+      this.faces.rest();
       return;
     }
     const began = performance.now();
-    this.views.forEach((view) => view.draw(time, playing));
+    this.faces.draw(time, playing);
     const between = performance.now();
     this.poses.at(time, this.now);
     this.lanes.at(time, legible);
@@ -263,7 +205,7 @@ export class Stage {
       playing: this.clock.playing,
       hushed: this.clock.hushed,
       poses: Object.fromEntries(this.poses.names.map((name, k) => [name, this.now[k]])),
-      faces: this.views.map((view) => view.state),
+      faces: this.faces.state,
       pace: { ...this.pace },
       painted: this.lanes.painted,
     };
@@ -274,7 +216,7 @@ export class Stage {
     this.watcher.disconnect();
     this.clock.pause();
     this.id = "";
-    this.views.forEach(leave);
+    this.faces.dispose();
   }
 }
 
