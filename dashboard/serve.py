@@ -56,7 +56,7 @@ def prepare_others() -> None:
         import_module(f"parts.{module.name}")
     from parts.corpora import sentences
     from parts.lines import changes_of
-    from parts.pairs import examples
+    from parts.pairs import Choice, examples, heard
     from parts.session import shared
 
     from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
@@ -66,6 +66,8 @@ def prepare_others() -> None:
         examples(shared(), DEFAULT_LANGUAGE, DEFAULT_CHARACTER)
         sentences(shared(), DEFAULT_LANGUAGE)
         changes_of(shared(), 1)
+        first = Choice()
+        heard(first.left, first.right, language=first.language, character=first.character)
 
 
 if __name__ == "__main__":

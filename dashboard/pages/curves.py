@@ -10,7 +10,7 @@ from parts import pairs
 from parts.conflict import Choice, ask_again, save_or_ask
 from parts.keys import Held, discard, editor, held, rebase, unsaved
 from parts.leaving import tell_browser
-from parts.lines import spoken
+from parts.lines import played, spoken
 from parts.saved import show_saved, tell
 from parts.session import database, shown_errors, visitor
 from parts.stage import stage
@@ -87,9 +87,9 @@ def show_sentence(place: Place, records: Records) -> None:
     line = spoken(text, place.language)
     book = place.book(records)
     own = {place.key(pose): book.find(*place.key(pose)).curve for pose in book.poses}
-    played = database().animate(replace(line, curves={place.pose_set: own}), character=place.character)
+    heard = played(replace(line, curves={place.pose_set: own}), place.character)
     marks = [(max(start, 0.0), end) for start, _, end in occurrences(line.schedule, place.left, place.right)]
-    stage([played], key="curves_sentence", compact=True, marks=marks)
+    stage([heard], key="curves_sentence", compact=True, marks=marks)
 
 
 def copy_from(now: Held) -> None:
@@ -171,7 +171,9 @@ def saved(place: Place, what: str, choice: Choice, revision: int | None) -> None
 
 def show_sources(now: Held) -> None:
     """Where each curve comes from."""
-    with st.expander("Where these curves come from"):
+    with st.expander("Where these curves come from", key="curves_sources", on_change="rerun") as sources:
+        if not sources.open:
+            return
         rows = []
         for pose, lane in now.draft.lanes.items():
             curve = lane.own or lane.below.curve

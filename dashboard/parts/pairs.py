@@ -14,7 +14,7 @@ from parts.lines import spoken
 from parts.session import database, in_words, shown_errors
 from streamlit.delta_generator import DeltaGenerator
 
-from lipdb import Database
+from lipdb import Database, Line
 from lipdb.curves.draft import KINDS, Place
 from lipdb.curves.rehearse import usual_lengths
 from lipdb.decisions import ORIGINS, PairUse
@@ -229,6 +229,11 @@ def usual(place: Place) -> tuple[float, float]:
     known: dict[tuple[str, ...], tuple[float, float]] = st.session_state.setdefault("curves_usual", {})
     key = place.left, place.right, place.language
     if key not in known:
-        sentences = examples(database(), place.language, place.character).containing(place.left, place.right)[:LISTENED]
-        known[key] = usual_lengths((spoken(sentence, place.language).schedule for sentence in sentences), place.left, place.right)
+        lines = heard(place.left, place.right, language=place.language, character=place.character)
+        known[key] = usual_lengths((line.schedule for line in lines), place.left, place.right)
     return known[key]
+
+
+def heard(left: str, right: str, *, language: str, character: str) -> list[Line]:
+    """Sentences that have the pair, as *language*'s own voice says them: a few that tell how long its phones last."""
+    return [spoken(sentence, language) for sentence in examples(database(), language, character).containing(left, right)[:LISTENED]]
