@@ -1,15 +1,13 @@
-"""Whether the visitor would lose something by leaving: then the browser asks first, or says what was lost (page.js)."""
+"""Whether the visitor would lose something by leaving: then the browser asks first (page.js)."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from secrets import token_hex
 from typing import TypeVar
 
 import streamlit as st
 
-SESSION = "leaving_session"
 _ASKED: list[Callable[[], object]] = []
 Unsaved = TypeVar("Unsaved", bound=Callable[..., object])
 
@@ -21,8 +19,6 @@ def lost_by_leaving(unsaved: Unsaved) -> Unsaved:
 
 
 def tell_browser() -> None:
-    """Tell the browser what it has to know before it leaves. Pages whose parts run alone call it there too."""
-    # A server that was started anew, or has forgotten a visitor who was away, begins a session of another name.
-    session = st.session_state.setdefault(SESSION, token_hex())
+    """Tell the browser whether anything of the visitor is unsaved. Pages whose parts run alone call it there too."""
     unsaved = any(found() for found in _ASKED)
-    st.html(f"<script>lipdbUnsaved({json.dumps([session, unsaved])})</script>", unsafe_allow_javascript=True)
+    st.html(f"<script>lipdbUnsaved({json.dumps(unsaved)})</script>", unsafe_allow_javascript=True)

@@ -14,16 +14,10 @@ if (!window.lipdbUnsaved) {
     }
   }, true);
 
-  // Nothing unsaved is lost without a word: parts/leaving.py says in which session something is.
-  let held = {};
-  window.lipdbUnsaved = ([session, unsaved]) => {
-    if (held.unsaved && held.session !== session) {
-      const lost = "The dashboard was restarted, or could not be reached for some minutes. What you had not saved is gone.";
-      setTimeout(() => alert(lost)); // after the page is drawn
-    }
-    held = { session, unsaved };
-  };
+  // Who leaves is asked first while something is unsaved: parts/leaving.py says whether it is.
+  let held = false;
+  window.lipdbUnsaved = (unsaved) => { held = unsaved; };
   window.addEventListener("beforeunload", (event) => {
-    if (held.unsaved) event.preventDefault();
+    if (held) event.preventDefault();
   });
 }
