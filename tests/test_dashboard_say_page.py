@@ -196,3 +196,8 @@ def test_unknown_symbols_can_be_mapped_by_articulation(start) -> None:
 
     line = recorded(grid("QQQ"), ".textgrid", None, "en", 1, allow_unknown=True)
     assert "QQQ" in line.notes[0]
+
+
+def test_a_text_that_is_too_long_is_told_how_long_it_may_be(page) -> None:
+    page.text_input(key="say_text_en").set_value("a" * 100_000).run()
+    assert messages(page) == ["the text has 100,000 letters; give up to 2,000 at once here, and a longer one to `lipdb say`"]
