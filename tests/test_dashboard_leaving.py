@@ -82,6 +82,8 @@ def test_a_curve_is_asked_about_until_its_change_is_undone(app, page) -> None:
     settled(page)
     assert asked(page)
     press(page, "Discard")
+    page.get_by_text("Not saved yet:").wait_for(state="hidden")
+    settled(page)
     assert not asked(page)
 
 
@@ -114,8 +116,12 @@ def test_a_language_is_asked_about_until_it_is_thrown_away(app, page) -> None:
     for label, text in (("Name", "Palu"), ("Code", "qpa"), ("Its phones, in IPA", "p m a i"), ("A text of the language", "Pama mipi.")):
         fill(page, label, text)
     press(page, "Propose the phones")
+    page.get_by_text("Right so").wait_for()
+    settled(page)
     assert asked(page)
     page.get_by_test_id("stButtonGroup").get_by_text("1 Language", exact=True).click()
     press(page, "Begin another language")
     press(page, "Throw it away")
+    page.get_by_role("button", name="Propose the phones").wait_for()
+    settled(page)
     assert not asked(page)
