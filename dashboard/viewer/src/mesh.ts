@@ -39,7 +39,8 @@ export class MeshView {
   private url = "";
   private track = new Track();
   private readonly pace: Pace;
-  private drawn = 0;
+  /** When it was drawn last, in milliseconds of the page. */
+  drawn = 0;
   private sharpness = 1;
   private keeps = 0;
   private stretched = false;

@@ -5,8 +5,12 @@ import { MeshView } from "./mesh";
 
 const MOST = 2; // as many as a page has; browsers allow sixteen contexts at a time
 
+const QUIET = 2000; // milliseconds in which nobody does anything, and nothing moves, before a second view is made
+
 let spare: MeshView[] = [];
 let doubled = false;
+let touched = 0;
+for (const act of ["keydown", "pointerdown", "pointermove"]) window.addEventListener(act, () => (touched = performance.now()), true);
 
 /** A view to stand on a page: a spare one, if there is one the one with the face at `url`. Throws as `MeshView` does; see there for `failed`. */
 export function taken(url: string, failed: (why: string) => void): MeshView {
@@ -19,9 +23,9 @@ export function taken(url: string, failed: (why: string) => void): MeshView {
   return found;
 }
 
-/** Make a second view like this one ready, once, for pages that have two. It takes a moment: ask while nothing moves. */
+/** Make a second view like this one ready, once, for pages that have two. It takes a moment, so nothing is done before all is quiet: ask again. */
 export function double(view: MeshView): void {
-  if (doubled || !view.whole) return;
+  if (doubled || !view.whole || performance.now() - Math.max(touched, view.drawn) < QUIET) return;
   doubled = true;
   (window.requestIdleCallback ?? setTimeout)(() => void view.twin().then(left));
 }
