@@ -5,7 +5,7 @@ import { MeshView } from "./mesh";
 
 const MOST = 2; // as many as a page has; browsers allow sixteen contexts at a time
 
-const QUIET = 2000; // milliseconds in which nobody does anything, and nothing moves, before a second view is made
+const QUIET = 500; // milliseconds in which nobody does anything, and nothing moves, before a second view is made
 
 let spare: MeshView[] = [];
 let doubled = false;
