@@ -189,6 +189,7 @@ def until(page: Any, condition: str, argument: Any = None) -> Any:
 
 def at_rest(page: Any) -> None:
     """Stop the player where it is."""
+    until(page, "stage.lipdb !== undefined")  # the frame of a page stands before what fills it
     page.locator(".stage").evaluate("stage => stage.lipdb.clock.pause()")
 
 

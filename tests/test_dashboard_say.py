@@ -159,10 +159,11 @@ def test_lanes_are_painted_when_they_change_and_not_while_they_play(front) -> No
     until(front, "stage.lipdb.state.time > 0.4")
     at_rest(front)
     assert stage_state(front)["painted"] == painted
-    ink = front.locator(".stage .lanes").evaluate("lanes => getComputedStyle(lanes).color")
+    lanes = front.locator(".stage .lanes")
+    ink = lanes.evaluate("lanes => getComputedStyle(lanes).color")
     front.emulate_media(color_scheme="dark")
+    eventually(front, lambda: lanes.evaluate("lanes => getComputedStyle(lanes).color") != ink, "the ink of a dark page")
     until(front, "stage.lipdb.state.painted > argument", painted)
-    assert front.locator(".stage .lanes").evaluate("lanes => getComputedStyle(lanes).color") != ink
     front.emulate_media(color_scheme="light")
 
 
