@@ -198,3 +198,17 @@ def seek(page: Any, seconds: float) -> None:
     at_rest(page)
     page.locator(".stage").evaluate("(stage, time) => stage.lipdb.clock.seek(time)", seconds)
     until(page, "Math.abs(stage.lipdb.state.time - argument) < 1e-3", seconds)
+
+
+def fill(page: Any, label: str, text: str) -> None:
+    """Type *text* into the field *label*, and wait for what the page makes of it."""
+    field = page.get_by_label(label, exact=True)
+    field.fill(text)
+    field.press("Tab")
+    settled(page)
+
+
+def press(page: Any, name: str, *, exact: bool = False) -> None:
+    """Press the button *name*, and wait for what the page makes of it."""
+    page.get_by_role("button", name=name, exact=exact).click()
+    settled(page)

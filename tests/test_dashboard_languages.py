@@ -1,7 +1,7 @@
 """The page Languages in a real browser: a small invented language, from its phones to a face that speaks it."""
 
 import pytest
-from browser import seek, serving, settled, stage_state, until
+from browser import fill, press, seek, serving, settled, stage_state, until
 from shared_tables import copy_workspace
 
 import lipdb
@@ -34,18 +34,6 @@ def languages(app, page):
 
 def choose(page, name: str) -> None:
     page.get_by_test_id("stButtonGroup").get_by_text(name, exact=True).click()
-    settled(page)
-
-
-def fill(page, label: str, text: str) -> None:
-    field = page.get_by_label(label, exact=True)
-    field.fill(text)
-    field.press("Tab")
-    settled(page)
-
-
-def press(page, label: str) -> None:
-    page.get_by_role("button", name=label).click()
     settled(page)
 
 

@@ -2,23 +2,11 @@
 
 from contextlib import contextmanager
 
-from browser import eventually, settled
+from browser import eventually, fill, press, settled
 
 
 def opened(app, page, path: str) -> None:
     page.goto(f"{app.url}/{path}")
-    settled(page)
-
-
-def fill(page, label: str, text: str) -> None:
-    field = page.get_by_label(label, exact=True)
-    field.fill(text)
-    field.press("Tab")
-    settled(page)
-
-
-def press(page, name: str) -> None:
-    page.get_by_role("button", name=name, exact=True).click()
     settled(page)
 
 
@@ -67,7 +55,7 @@ def test_a_phone_that_is_not_saved_is_asked_about_on_every_page_until_it_is(app,
     assert asked(page)
     page.get_by_role("link", name="Languages").click()
     settled(page)
-    press(page, "Save")
+    press(page, "Save", exact=True)
     page.get_by_text("Revision 2:").wait_for()
     assert not asked(page)
 
@@ -81,7 +69,7 @@ def test_a_curve_is_asked_about_until_its_change_is_undone(app, page) -> None:
     page.get_by_text("Not saved yet:").wait_for()
     settled(page)
     assert asked(page)
-    press(page, "Discard")
+    press(page, "Discard", exact=True)
     page.get_by_text("Not saved yet:").wait_for(state="hidden")
     settled(page)
     assert not asked(page)
@@ -115,13 +103,13 @@ def test_a_language_is_asked_about_until_it_is_thrown_away(app, page) -> None:
         settled(page)
     for label, text in (("Name", "Palu"), ("Code", "qpa"), ("Its phones, in IPA", "p m a i"), ("A text of the language", "Pama mipi.")):
         fill(page, label, text)
-    press(page, "Propose the phones")
+    press(page, "Propose the phones", exact=True)
     page.get_by_text("Right so").wait_for()
     settled(page)
     assert asked(page)
     page.get_by_test_id("stButtonGroup").get_by_text("1 Language", exact=True).click()
-    press(page, "Begin another language")
-    press(page, "Throw it away")
+    press(page, "Begin another language", exact=True)
+    press(page, "Throw it away", exact=True)
     page.get_by_role("button", name="Propose the phones").wait_for()
     settled(page)
     assert not asked(page)
