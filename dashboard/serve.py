@@ -12,11 +12,15 @@ from pkgutil import iter_modules
 from threading import Thread
 from time import sleep
 
+from parts.looks import BLUE, INK
 from streamlit.runtime.pages_manager import PagesManager
 from streamlit.web.cli import main
 
-# Blue of Okabe and Ito, as in the charts; red, Streamlit's own, looks like danger on a button that saves.
-THEME = {"theme.light.primaryColor": "#0072b2", "theme.dark.primaryColor": "#2a86c4"}
+THEME = {
+    f"theme.{theme}.{name}": colours[theme]
+    for name, colours in (("primaryColor", BLUE), ("textColor", INK), ("codeTextColor", INK))
+    for theme in colours
+}
 SLOW_TO_IMPORT = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataframe_util")
 """What the front page waits for, and what the others wait for."""
 FIRST_FACE = 5

@@ -98,7 +98,7 @@ def test_a_good_language_has_no_errors_and_its_coverage_is_reported(folder):
 def test_missing_pairs_are_a_note(folder, found):
     (note,) = found(notes=True)
     assert note.startswith("xx/sentences.tsv:1:1: ")
-    assert "pairs of common phones occur in no sentence: " in note
+    assert "pairs of common phones and pauses occur in no sentence: " in note
 
 
 BROKEN = {

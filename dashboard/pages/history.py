@@ -66,8 +66,8 @@ def choose(revisions: list[Revision]) -> Revision:
             "revision": one.number,
             "when (UTC)": one.time.replace("T", " ").rstrip("Z"),
             "who": one.author,
-            "why": one.note,
             "rows": one.rows,
+            "why": one.note,
         }
         for one in revisions
     ]
@@ -78,9 +78,14 @@ def choose(revisions: list[Revision]) -> Revision:
         rows,
         hide_index=True,
         height=min(38 + 35 * len(rows), 320),
-        column_config={"revision": st.column_config.NumberColumn(width=70), "when (UTC)": st.column_config.TextColumn(width=150)}
-        | {"who": st.column_config.TextColumn(width=120), "why": st.column_config.TextColumn(width=360)}
-        | {"rows": st.column_config.NumberColumn(width=70)},
+        # What is pinned keeps its width: the room that is left is for the note.
+        column_config={
+            "revision": st.column_config.NumberColumn(width=70, pinned=True),
+            "when (UTC)": st.column_config.TextColumn(width=150, pinned=True),
+            "who": st.column_config.TextColumn(width=120, pinned=True),
+            "rows": st.column_config.NumberColumn(width=60, pinned=True),
+            "why": st.column_config.TextColumn(width=360),
+        },
         on_select="rerun",
         selection_mode="single-row",
         selection_default={"selection": {"rows": [first]}},

@@ -168,10 +168,11 @@ def show_checked(checked: Checked, name: str, *, key: str) -> None:
             rows,
             hide_index=True,
             key=key,
+            # What is pinned keeps its width: the room that is left is for the sentence.
             column_config={
-                "kind": st.column_config.TextColumn("", width=70),
-                "table": st.column_config.TextColumn(width=110),
-                "row": st.column_config.TextColumn(width=120),
+                "kind": st.column_config.TextColumn("", width=70, pinned=True),
+                "table": st.column_config.TextColumn(width=110, pinned=True),
+                "row": st.column_config.TextColumn(width=120, pinned=True),
                 "what": st.column_config.TextColumn(width=690),
             },
         )

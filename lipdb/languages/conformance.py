@@ -130,5 +130,5 @@ def _pairs(code: str, coverage: Coverage | None) -> Iterator[Remark]:
     if coverage and coverage.missing:
         shown = " ".join("-".join(pair) for pair in coverage.missing[:SHOWN])
         rest = f" and {len(coverage.missing) - SHOWN} more (--json has all)" if len(coverage.missing) > SHOWN else ""
-        message = f"{len(coverage.missing)} of {coverage.possible} pairs of common phones occur in no sentence: {shown}{rest}"
+        message = f"{len(coverage.missing)} of {coverage.possible} pairs of common phones and pauses occur in no sentence: {shown}{rest}"
         yield Remark(f"{code}/sentences.tsv", (), "sentence", message, note=True)

@@ -57,7 +57,7 @@ class Coverage:
         curves = ", ".join(f"{count} {origin}" for origin, count in self.origins.items())
         return (
             f"{self.sentences} sentences with {self.phones_heard} of {self.phones} phones and {self.occurring} of {self.possible} pairs "
-            f"of common phones ({share:.1f} %); their curves: {curves}"
+            f"of common phones and pauses ({share:.1f} %); their curves: {curves}"
         )
 
 
