@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-from lipdb.coverage.executors import PRELOADED, READERS
+from lipdb.coverage.processes import PRELOADED, READERS
 
 
 def run(code: str) -> str:

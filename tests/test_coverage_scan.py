@@ -16,7 +16,7 @@ from coverage_cases import LetterCounter, pairs_in, pairs_of, text, write
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lipdb.coverage import executors
+from lipdb.coverage import processes
 from lipdb.coverage.archive import Archive
 from lipdb.coverage.counts import DOCUMENTS, FINDINGS, PAIRS, SAMPLE, Counter, Counts
 from lipdb.coverage.executors import Workers
@@ -235,7 +235,7 @@ def test_only_some_counts_are_in_memory_at_once() -> None:
 
 
 def test_workers_that_can_do_nothing_are_told_at_once(monkeypatch) -> None:
-    monkeypatch.setattr(executors, "_begin", ends)
+    monkeypatch.setattr(processes, "_begin", ends)
     with Workers(1) as crew, pytest.raises(LipdbError, match="end as soon as they begin"):
         crew.alone(len, "task")
 

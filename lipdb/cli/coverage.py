@@ -62,7 +62,7 @@ def scan(
       zcat crawl.gz | lipdb coverage scan - --language en
     """
     if options.alone and not scheduler:
-        from lipdb.coverage.executors import make_ready
+        from lipdb.coverage.processes import make_ready
 
         make_ready(language)  # before the imports that take longest
         from lipdb.coverage.plain_arrow import without_pandas

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import IO, Any
 
 import lipdb
-from lipdb.coverage.executors import make_ready
 from lipdb.coverage.plain_arrow import without_pandas
+from lipdb.coverage.processes import make_ready
 from lipdb.coverage.register import EXACT, scan
 from lipdb.errors import LipdbError, OutputError
 from lipdb.files import whole_file
@@ -26,6 +26,8 @@ from lipdb.progress import report, reported
 
 STEP = 0.1
 """Seconds from one report to the next, at least."""
+PATIENCE = 10
+"""Seconds in which a process that is to end may end in order; ended at once, it loses no more than what was not counted to its end."""
 
 
 def kept(content: bytes, folder: Path, *, suffix: str) -> Path:
@@ -64,7 +66,10 @@ def scan_apart(paths: Sequence[str], *, language: str, mode: str = EXACT, title:
                     report(told["what"], told["done"], told["total"])
         except BaseException:
             process.terminate()
-            process.wait()
+            try:
+                process.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                process.kill()
             raise
     if "scan" not in told:
         raise LipdbError(told.get("error") or "counting ended before its time; what is counted is kept, so start it again")
