@@ -4,6 +4,8 @@ Streamlit takes a folder called pages/ for the pages of an app of its old kind, 
 new server by a link to a page would get that page alone, without what app.py puts around it: navigation, name, sign-in.
 """
 
+import os
+import signal
 import sys
 from contextlib import suppress
 from importlib import import_module
@@ -25,6 +27,8 @@ SLOW_TO_IMPORT = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataf
 """What the front page waits for, and what the others wait for."""
 FIRST_FACE = 5
 """Seconds in which the first visitor's page has the processor for itself, before the rest is made ready."""
+LOOK, PATIENCE = 0.5, 3
+"""Seconds between two looks at who started the server, and that it gets to end by itself when they are gone."""
 UNUSED = "rfc3987_syntax"
 """Where it is installed, jsonschema loads it for addresses that no chart has; its grammar takes two seconds to read."""
 
@@ -74,7 +78,21 @@ def prepare_others() -> None:
         heard(first.left, first.right, language=first.language, character=first.character)
 
 
+def end_with_starter() -> None:
+    """End when the process that has started this one is gone without having ended it: it was killed.
+
+    Windows goes on naming it as the parent; there the server stays.
+    """
+    starter = os.getppid()
+    while os.getppid() == starter:
+        sleep(LOOK)
+    os.kill(os.getpid(), signal.SIGTERM)
+    sleep(PATIENCE)  # it waits for open pages to go away
+    os._exit(1)
+
+
 if __name__ == "__main__":
+    Thread(target=end_with_starter, daemon=True).start()
     PagesManager.uses_pages_directory = False
     sys.modules.setdefault(UNUSED, None)  # type: ignore[arg-type]
     Thread(target=prepare, daemon=True).start()

@@ -55,10 +55,16 @@ LISTEN = """
 
 @dataclass(frozen=True)
 class Dashboard:
-    """A running dashboard: where it is, and its database."""
+    """A running dashboard: where it is, its database, and the process of `lipdb dashboard`."""
 
     url: str
     database: Path
+    process: subprocess.Popen[bytes]
+
+    @property
+    def answers(self) -> bool:
+        """Whether a server is there."""
+        return _answers(f"{self.url}/_stcore/health")
 
     def lipdb(self, *arguments: str) -> str:
         """What `lipdb` prints on this dashboard's database."""
@@ -88,13 +94,13 @@ def serving(folder: Path, *, port: int | None = None, **variables: str) -> Itera
     command = [sys.executable, "-m", "lipdb", "--db", str(database), "dashboard", "--port", str(port), "--no-browser"]
     with (folder / "log").open("wb") as log, subprocess.Popen(command, env=environment, cwd=folder, stdout=log, stderr=log) as server:
         try:
-            url = f"http://localhost:{port}"
+            dashboard = Dashboard(f"http://localhost:{port}", database, server)
             for _ in range(PATIENCE // 100):
-                if server.poll() is not None or _answers(f"{url}/_stcore/health"):
+                if server.poll() is not None or dashboard.answers:
                     break
                 time.sleep(0.1)
             assert server.poll() is None, (folder / "log").read_text()
-            yield Dashboard(url, database)
+            yield dashboard
         finally:
             server.terminate()
 

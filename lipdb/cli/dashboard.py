@@ -43,6 +43,7 @@ def dashboard(options: Options, /, port: int, address: str, no_browser: bool) ->
         "server.port": port,
         "server.address": address,
         "server.headless": str(no_browser).lower(),
+        "server.showEmailPrompt": "false",  # else the first start on a machine waits for an address to send news to
         "server.maxUploadSize": 32,
         "browser.gatherUsageStats": "false",
         "client.toolbarMode": "minimal",
