@@ -11,6 +11,8 @@ import page_cases
 import pytest
 from page_cases import behind_pages
 
+from lipdb.engine.explain import STAGES
+
 
 @pytest.fixture(scope="module")
 def db(as_shipped, tmp_path_factory):
@@ -84,6 +86,15 @@ def test_the_stages_come_when_they_are_asked_for(page) -> None:
     assert len(page.get("vega_lite_chart")) == 1
 
 
+def test_every_stage_that_an_instant_can_name_can_be_seen(page) -> None:
+    page.session_state["say_tab"] = "Stages of the engine"
+    page.run()
+    stages = page.session_state["say_stages"]
+    assert set(STAGES) <= set(stages)
+    data = json.dumps(json.loads(page.get("vega_lite_chart")[0].proto.spec)["layer"][-1]["encoding"]["color"])
+    assert all(f'"{stage}"' in data for stage in STAGES)
+
+
 def test_the_stages_of_all_poses_stand_in_one_plot_that_keeps_to_the_width_of_the_page(page) -> None:
     page.session_state["say_tab"] = "Stages of the engine"
     page.run()
@@ -124,6 +135,13 @@ def test_a_film_is_made_on_request(page) -> None:
     assert [button.proto.label for button in page.get("download_button")] == ["Download line.mp4"]
 
 
+def test_nobody_beside_is_a_choice_and_no_empty_field_to_be_cleared(page) -> None:
+    page.selectbox(key="say_character").set_value("crab").run()
+    beside = page.selectbox(key="say_beside")
+    assert beside.options[beside.index] == "nobody"
+    assert beside.proto.HasField("default")
+
+
 def test_a_character_stands_beside_itself_as_it_was_before_an_edit(db, start) -> None:
     curve = db.book("facefx", language="en").find("l", "ow", "W").curve
     with db.edit(author="anna", note="Round earlier") as changes:
@@ -135,7 +153,7 @@ def test_a_character_stands_beside_itself_as_it_was_before_an_edit(db, start) ->
     assert messages(page) == []
     (player,) = players(page)
     titles = [face["title"] for face in json.loads(player.json)["faces"]]
-    assert titles == ["Robin, a human head", "Robin, a human head at revision 1"]
+    assert titles == ["Robin, a human head", "Robin, a human head, at revision 1"]
 
 
 def grid(phone: str = "m") -> bytes:

@@ -17,6 +17,7 @@ from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
 LONG = 12.0  # seconds of a line that the chart of the stages shows at once
 
 Beside = tuple[str, int | None]  # a character, and the revision of the data that moves it; None for today's
+NOBODY: Beside = ("", None)  # not None: Streamlit takes that for an empty field, and offers to clear it
 
 
 def example(language: str) -> str:
@@ -30,12 +31,12 @@ def voice_title(name: str) -> str:
     return name.replace("+", ", ")
 
 
-def ask() -> tuple[Line | None, str, Beside | None]:
+def ask() -> tuple[Line | None, str, Beside]:
     """What is to be said, the character, and who stands beside."""
     db = database()
     languages = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
-    first, second, third, fourth, fifth = st.columns([16, 13, 13, 19, 19])
+    first, second, third, fourth, fifth = st.columns([14, 15, 13, 19, 19])
     source = first.segmented_control("From", ["Text", "Recording"], default="Text", key="say_source") or "Text"
     language = second.selectbox(
         "Language",
@@ -51,7 +52,7 @@ def ask() -> tuple[Line | None, str, Beside | None]:
     )
     beside = fifth.selectbox(
         "Beside it",
-        [None, *((name, None) for name in characters if name != character), *_versions(character)],
+        [NOBODY, *((name, None) for name in characters if name != character), *_versions(character)],
         format_func=lambda one: _beside_title(one, characters),
         key="say_beside",
         help="Another character, or this one as the data were before an edit, on the same clock.",
@@ -71,8 +72,8 @@ def _versions(character: str) -> list[Beside]:
     return [(character, revision.number - 1) for revision in database().store.history(limit=20) if revision.number > 1]
 
 
-def _beside_title(one: Beside | None, characters: dict[str, str]) -> str:
-    if one is None:
+def _beside_title(one: Beside, characters: dict[str, str]) -> str:
+    if one == NOBODY:
         return "nobody"
     name, past = one
     return characters.get(name, name) if past is None else f"as it was at revision {past}"
@@ -119,11 +120,11 @@ def look_inside(line: Line, character: str) -> None:
 
 
 @st.fragment
-def show(line: Line, character: str, beside: Beside | None) -> None:
+def show(line: Line, character: str, beside: Beside) -> None:
     """The player, and under it what can be asked of the line. A click into the lanes runs this part only."""
     with shown_errors():
         shown = [played(line, character)]
-        if beside is not None:
+        if beside != NOBODY:
             shown.append(played(line, beside[0], past=beside[1]))
         picked = stage(shown, key="say_stage", autoplay=True)
         if picked is not None:

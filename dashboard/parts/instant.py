@@ -43,7 +43,7 @@ def _row(cause: Cause) -> dict[str, Any] | None:
         "weight": weight,
         "pairs and their curves": " · ".join(drawn),
         "the larger one is": f"{best.where}, {best.curve.origin}" if best else "",
-        "changed by": cause.stage or "nothing",
+        "most changed by": cause.stage or "nothing",
         "gives way to": ", ".join(cause.yields_to),
     }
 

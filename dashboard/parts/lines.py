@@ -58,7 +58,7 @@ def _played(key: str, revision: int, _line: Line, character: str, past: int | No
     db = state(past)
     who = db.character(character)
     if past is not None:
-        who = replace(who, title=f"{who.title or who.name} at revision {past}")
+        who = replace(who, title=f"{who.title or who.name}, at revision {past}")
     return db.animate(_line, character=who)
 
 

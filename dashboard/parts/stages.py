@@ -8,7 +8,7 @@ import altair as alt
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from parts.looks import blue
+from parts.looks import blue, ink
 
 if TYPE_CHECKING:
     from lipdb.engine import Stages
@@ -22,10 +22,9 @@ STAGE_COLOURS = {
     "smoothed": "#009e73",
     "constrained": "#e69f00",
     "limited": "#d55e00",
+    "splined": "#cc79a7",
     "final": "#0072b2",
 }
-GREY = "#8a8a8a"
-"""Can be read on light and on dark pages."""
 ROOM = 1.15
 """What a pose has of the height, in weights: 1 and the names of the phones."""
 STRAIGHT = 1e-4
@@ -53,10 +52,15 @@ def stages_chart(
         alt.Chart(data)
         .mark_line(strokeWidth=1.6, clip=True)
         .encode(
-            x=alt.X("seconds:Q", title="seconds", scale=alt.Scale(domain=list(window), nice=False)),
+            x=alt.X(
+                "seconds:Q",
+                title="seconds",
+                scale=alt.Scale(domain=list(window), nice=False),
+                axis=alt.Axis(grid=False, tickCount=10),  # the lines across are the phones'
+            ),
             y=alt.Y(
                 "height:Q",
-                title=poses[0] if len(poses) == 1 else None,
+                title=poses[0] if len(poses) == 1 else "each from 0 to 1",
                 scale=alt.Scale(domain=[0, ROOM * len(poses)], nice=False),
                 axis=axis,
             ),
@@ -74,8 +78,9 @@ def _phones(schedule: Schedule, window: tuple[float, float]) -> list[alt.Chart]:
     seconds = np.array(edges) / 1e6
     phones = pd.DataFrame({"start": seconds[:-1], "seconds": (seconds[:-1] + seconds[1:]) / 2, "wide": np.diff(seconds), "phone": names})
     seen = phones[(phones.start < window[1]) & (phones.start >= window[0])]
-    borders = alt.Chart(seen).mark_rule(opacity=0.3, color=GREY).encode(x=alt.X("start:Q", title="seconds"))
-    text = alt.Chart(seen[seen.wide > 0.008 * (window[1] - window[0])]).mark_text(baseline="top", dy=2, fontSize=11, color=GREY)
+    borders = alt.Chart(seen).mark_rule(opacity=0.2, color=ink()).encode(x=alt.X("start:Q", title="seconds"))
+    wide = seen[seen.wide > 0.008 * (window[1] - window[0])]
+    text = alt.Chart(wide).mark_text(baseline="top", dy=2, fontSize=11, color=ink(), opacity=0.7)
     return [borders, text.encode(x="seconds:Q", y=alt.value(0), text="phone:N")]
 
 
@@ -85,9 +90,9 @@ def _stage(made: Stages, pose: str, stage: str, window: tuple[float, float]) -> 
     if stage == "curves":
         laid = [curve for curve in made.curves if curve.pose == pose]
         lines = [(np.asarray(curve.times), np.asarray(curve.weights), f"{curve.left}-{curve.right} ({n})") for n, curve in enumerate(laid)]
-    elif stage == "final":
-        track = made.track
-        lines = [(np.arange(len(track.weights)) / track.fps, track.weights[:, k], stage)]
+    elif stage in ("splined", "final"):
+        drawn = made.splined if stage == "splined" else made.track.weights
+        lines = [(np.arange(len(drawn)) / made.track.fps, drawn[:, k], stage)]
     else:
         lines = [(made.times, getattr(made, stage)[:, k], stage)]
     frames = [
