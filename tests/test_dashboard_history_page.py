@@ -99,5 +99,13 @@ def test_who_gives_no_name_undoes_nothing(db) -> None:
 
 def test_the_first_revision_is_shown_in_part_and_can_not_be_undone(db) -> None:
     shown = page("history", query={"revision": "1"})
-    assert any("The first 1000 of" in text for text in texts(shown))
+    assert any("The first 1,000 of" in text for text in texts(shown))
     assert not [one for one in shown.button if one.label == "Undo"]
+
+
+def test_of_a_large_revision_those_rows_are_shown_that_were_looked_for(db) -> None:
+    shown = page("history", query={"revision": "1"}, history_table="sentences", history_language="en")
+    rows = shown.dataframe[1].value["row"].tolist()
+    assert len(rows) == len(db.records["en/sentences.tsv"]) == shown.dataframe[0].value["rows"][0]
+    assert all(row.startswith("en/sentences.tsv ") for row in rows)
+    assert any("rows are as chosen above; only these are shown" in text for text in texts(shown))

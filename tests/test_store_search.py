@@ -6,7 +6,7 @@ import pytest
 
 import lipdb
 from lipdb.curves.changed import changed_pairs
-from lipdb.store.search import Wanted
+from lipdb.store.search import Wanted, changes_named
 
 PAIR = ("l", "ow")
 CURVE = {"left": "l", "right": "ow", "pose": "W", "keys": "0:0 0.5:1 1:0", "warp": "border"}
@@ -49,7 +49,9 @@ def db(as_shipped, tmp_path_factory):
     ],
 )
 def test_revisions_are_found_by_author_note_kind_language_character_and_pair(db, wanted, numbers):
-    assert [one.number for one in db.store.find(wanted)] == numbers
+    found = db.store.find(wanted)
+    assert [one.number for one in found] == numbers
+    assert [len(changes_named(wanted, db.store.changes(one.number))) for one in found] == [one.rows for one in found]
     assert [one.number for one in db.store.find(wanted, limit=2)] == numbers[:2]
 
 

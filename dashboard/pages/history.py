@@ -11,7 +11,7 @@ from parts.session import database, shown_errors, undo, visitor
 from lipdb.curves.changed import ChangedPair, changed_pairs
 from lipdb.errors import InputError, LipdbError
 from lipdb.store.history import Change, Revision
-from lipdb.store.search import Wanted
+from lipdb.store.search import Wanted, changes_named
 from lipdb.words import counted
 
 ANY = "any"
@@ -83,7 +83,7 @@ def choose(revisions: list[Revision]) -> Revision:
             "revision": st.column_config.NumberColumn(width=70, pinned=True),
             "when (UTC)": st.column_config.TextColumn(width=150, pinned=True),
             "who": st.column_config.TextColumn(width=120, pinned=True),
-            "rows": st.column_config.NumberColumn(width=60, pinned=True),
+            "rows": st.column_config.NumberColumn(width=60, pinned=True, format="localized"),
             "why": st.column_config.TextColumn(width=360),
         },
         on_select="rerun",
@@ -114,11 +114,10 @@ def take_back(one: Revision) -> None:
     st.rerun()
 
 
-def show_curves(one: Revision, pairs: list[ChangedPair], wanted: Wanted) -> None:
+def show_curves(one: Revision, pairs: list[ChangedPair]) -> None:
     """A changed pair as curves before and after, and the way to its editor."""
-    pairs = [pair for pair in pairs if wanted.pair in (None, (pair.left, pair.right))] or pairs
     if len(pairs) > MOST_PAIRS:
-        st.caption(f"The first {MOST_PAIRS} of {len(pairs)} pairs; name a pair above to see another one.")
+        st.caption(f"The first {MOST_PAIRS:,} of {len(pairs):,} pairs; name a pair above to see another one.")
     names = [f"{pair.pair}, {pair.layer}, {pair.pose_set}" for pair in pairs[:MOST_PAIRS]]
     left, right = st.columns([2, 3], vertical_alignment="bottom")
     chosen = left.selectbox("Pair", range(len(names)), format_func=names.__getitem__, key=f"history_pair_of_{one.number}")
@@ -141,7 +140,7 @@ def open_in_curves(pair: ChangedPair) -> None:
 def show_rows(changes: list[Change]) -> None:
     """Every row before and after."""
     if len(changes) > MOST_ROWS:
-        st.caption(f"The first {MOST_ROWS} of {len(changes)} rows.")
+        st.caption(f"The first {MOST_ROWS:,} of {len(changes):,} rows; choose a table or a pair above to see others.")
     kinds = {(True, False): "added", (False, True): "removed", (False, False): "changed"}
     rows = [
         {"row": f"{change.path} {' '.join(change.key)}", "": kinds[change.before is None, change.after is None], **change.to_row()}
@@ -160,13 +159,16 @@ with shown_errors():
     st.subheader(f"Revision {one.number}: {one.note or 'no note'}")
     st.caption(f"{one.author}, {one.time.replace('T', ' at ').rstrip('Z')} UTC")
     take_back(one)
-    changes = changes_of(database(), one.number)
+    every = changes_of(database(), one.number)
+    changes = changes_named(wanted, every)
+    if len(changes) < len(every):
+        st.caption(f"{len(changes):,} of this revision's {len(every):,} rows are as chosen above; only these are shown.")
     pairs = changed_pairs(changes) if one.number > 1 else []
     if pairs:
-        curves, rows = st.tabs([f"Curves of {counted(len(pairs), 'pair')}", f"All {len(changes)} rows" if len(changes) > 1 else "The row"])
-        with curves:
-            show_curves(one, pairs, wanted)
-        with rows:
+        as_curves, as_rows = st.tabs([f"Curves of {counted(len(pairs), 'pair')}", counted(len(changes), "row")])
+        with as_curves:
+            show_curves(one, pairs)
+        with as_rows:
             show_rows(changes)
     else:
         show_rows(changes)

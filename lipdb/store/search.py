@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
 
@@ -10,7 +10,7 @@ import sqlalchemy as sa
 
 from lipdb.curated.schema import table_of
 from lipdb.store.cells import key_text
-from lipdb.store.history import Revision
+from lipdb.store.history import Change, Revision
 from lipdb.store.tables import change, revision
 
 CURVES, MAPPING = "curves", "mapping"
@@ -51,6 +51,13 @@ def find_revisions(connection: sa.Connection, wanted: Wanted, *, limit: int | No
     return [Revision(*row) for row in connection.execute(query)]
 
 
+def changes_named(wanted: Wanted, changes: Sequence[Change]) -> list[Change]:
+    """Those of *changes* that *wanted* names: the rows that `find_revisions` counts."""
+    whole, by_key = map(set, _tables(wanted, {one.path for one in changes}))
+    rows = [one for one in changes if one.path in whole or (one.path in by_key and one.key[0] == wanted.language)]
+    return [one for one in rows if one.key[:2] == wanted.pair] if wanted.pair else rows
+
+
 def read_authors(connection: sa.Connection) -> list[str]:
     """Everybody who has made a revision, sorted."""
     return list(connection.scalars(sa.select(revision.c.author).distinct().order_by(revision.c.author)))
@@ -68,12 +75,19 @@ def _made(wanted: Wanted) -> list[sa.ColumnElement[bool]]:
 
 def _rows(wanted: Wanted, paths: Iterable[str]) -> list[sa.ColumnElement[bool]]:
     """Conditions on rows; *paths* are those of all tables."""
-    kind = CURVES if wanted.pair else wanted.kind
     rows: list[sa.ColumnElement[bool]] = []
     if wanted.pair:
         rows.append(change.c.key.startswith(key_text(wanted.pair)[:-1] + ",", autoescape=True))
-    if not (kind or wanted.language or wanted.character):
+    if not (wanted.pair or wanted.kind or wanted.language or wanted.character):
         return rows
+    whole, by_key = _tables(wanted, paths)
+    in_key = change.c.key.startswith(key_text([wanted.language])[:-1] + ",", autoescape=True)
+    return [*rows, sa.or_(change.c.path.in_(whole), sa.and_(change.c.path.in_(by_key), in_key))]
+
+
+def _tables(wanted: Wanted, paths: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Of the tables at *paths* those that *wanted* names, and those of which it names the rows with its language in their key."""
+    kind = CURVES if wanted.pair else wanted.kind
     whole, by_key = [], []
     for path in paths:
         table = table_of(path)
@@ -84,5 +98,4 @@ def _rows(wanted: Wanted, paths: Iterable[str]) -> list[sa.ColumnElement[bool]]:
             whole.append(path)
         elif kind_of(path) == MAPPING:  # a character's own mapping has the language in its key
             by_key.append(path)
-    in_key = change.c.key.startswith(key_text([wanted.language])[:-1] + ",", autoescape=True)
-    return [*rows, sa.or_(change.c.path.in_(whole), sa.and_(change.c.path.in_(by_key), in_key))]
+    return whole, by_key
