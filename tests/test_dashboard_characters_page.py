@@ -78,7 +78,7 @@ def test_pictures_of_poses_are_kept_until_their_shapes_change_and_show_the_tongu
 
 def test_rules_say_whom_they_count_for(db) -> None:
     shown = section("Rules", characters_name="crab")
-    assert "the pose set crab: they count for crab," in words(shown)
+    assert "the pose set crab. They count in every language and every line for crab." in words(shown)
     assert len(shown.dataframe) == 3
     assert shown.button(key="characters_rules_crab_save").disabled
 

@@ -12,6 +12,7 @@ from parts.uploads import contents, scratch
 from lipdb.characters.add import Added
 from lipdb.characters.uploaded import LARGEST, lay_out
 from lipdb.errors import InputError, LipdbError
+from lipdb.words import counted
 
 ADDED = "characters_added"
 
@@ -19,7 +20,7 @@ ADDED = "characters_added"
 def add_form(look_at: Callable[[str], None]) -> None:
     """The form, and what came of it: every link with how certain it is; a button calls *look_at*. Raises `LipdbError`."""
     if not visitor().editor:
-        st.info("You may look, but not add.")
+        st.info("You may look, but not add; ask an editor.")
         return
     with st.form("characters_add", border=False):
         left, right = st.columns([1, 2])
@@ -60,14 +61,26 @@ def _tell(added: Added, look_at: Callable[[str], None]) -> None:
     button.button(
         f"Look at {added.name}", key="characters_look", icon=":material/face:", on_click=look_at, args=(added.name,), width="stretch"
     )
-    if added.match.doubtful or added.match.missing:
-        found = [
-            f"{count} {what}" for count, what in ((len(added.match.doubtful), "doubtful"), (len(added.match.missing), "not found")) if count
-        ]
-        st.warning(f"Of its shapes {', '.join(found)}: look at its links.")
+    found = [
+        counted(len(shapes), *what)
+        for shapes, what in (
+            (added.match.doubtful, ("doubtful shape",)),
+            (added.match.missing, ("shape that was not found", "shapes that were not found")),
+        )
+        if shapes
+    ]
+    if found:
+        st.warning(f"{' and '.join(found)}: look at its links.")
     marks = {"sure": "", "doubtful": "⚠ doubtful", "missing": "✗ not found"}
+    # What is not found gets no link, so it has no gain either.
     rows = [
-        {"": marks[row["certainty"]], **{column: row[column] for column in ("pose", "shape", "gain", "comment")}} for row in added.rows()
+        {
+            "": marks[row["certainty"]],
+            "pose": row["pose"],
+            "shape": row["shape"],
+            **{column: "" if row["certainty"] == "missing" else row[column] for column in ("gain", "comment")},
+        }
+        for row in added.rows()
     ]
     rows.sort(key=lambda row: row[""] == "")
     st.dataframe(rows, hide_index=True, column_order=[name for name in rows[0] if name or rows[0][""]])

@@ -38,6 +38,8 @@ def bends_editor(name: str, held: Held, pose: str) -> None:
     _receive(name, held, pose)
     mount = component("keys")
     links = {row["shape"]: row for row in held.edited["links"] if row["pose"] == pose and row["shape"]}
+    if not links:
+        st.caption(f"Nothing is linked to {pose} yet: it moves no shape.")
     if mount is None or not links:
         return
     curves = {shape: parse_keys(row["curve"] or "") for shape, row in links.items()}

@@ -44,10 +44,10 @@ def links_editor(name: str, sentence: str, language: str) -> str:
             rows = {}
             st.error(str(error), icon=":material/error:")
         count = len(rows)
-        if visitor().editor:
+        if visitor().editor:  # others have been told below the curves
             st.caption(f"{counted(count, 'row')} to save." if count else "Double-click a cell to change it; the face follows.")
-        show_saved(key, key=key)
-        save_button(key, held, rows, note=f"Links of {name}")
+            show_saved(key, key=key)
+            save_button(key, held, rows, note=f"Links of {name}")
     with right:
         shown = SENTENCE if speaking else pose
         performance = _performance(name, shown, sentence, language, db.store.revision, str(sorted(rows.items(), key=str)), rows)

@@ -26,15 +26,15 @@ def rules_editor(name: str, sentence: str, language: str) -> str:
     db = database()
     pose_set = db.character(name).pose_set
     users = [row["character"] for row in db.characters() if row["pose_set"] == pose_set]
-    st.info(f"These rules belong to the pose set {pose_set}: they count for {', '.join(users)}, in every language and every line.")
+    st.info(f"These rules belong to the pose set {pose_set}. They count in every language and every line for {', '.join(users)}.")
     key = f"characters_rules_{pose_set}"
     held = hold(key, f"rules of {pose_set}", lambda: _cells(pose_set))
-    left, right = st.columns([3, 2])
+    left, right = st.columns(2)
     with left:
-        st.write("**Poses.** The higher priority wins where two meet; no priority yields to all that have one.")
+        st.write("**Poses.** Where two meet, the higher priority wins.")
         poses = table(held, "poses", _pose_columns(), rows="fixed")
     with right:
-        st.write("**Thresholds.** Two weights together are at most this; 2 binds nothing.")
+        st.write("**Thresholds.** Two weights together are at most this.")
         thresholds = table(held, "thresholds", _threshold_columns([row["pose"] for row in poses]), rows="dynamic")
         whole = table(held, "whole", _whole_columns(), rows="fixed")
     rows: Rows = {}
@@ -72,7 +72,6 @@ def _cells(pose_set: str) -> dict[str, Cells]:
                 "priority": int(row["priority"]) if row["priority"] else None,
                 "speed": float(row["speed"]),
                 "must_reach": row["must_reach"] == "yes",
-                "description": row["description"],
             }
             for row in poses
         ],
@@ -114,13 +113,10 @@ def _rows(records: Records, pose_set: str, poses: Cells, thresholds: Cells, whol
 
 def _pose_columns() -> dict[str, Any]:
     return {
-        "pose": st.column_config.TextColumn("Pose", disabled=True, width=95),
-        "priority": st.column_config.NumberColumn("Priority", min_value=0, step=1, width=80, help="Empty: it yields to all that have one."),
-        "speed": st.column_config.NumberColumn(
-            "Speed limit", min_value=0.1, step=0.5, width=95, help="Largest change of the weight in a second."
-        ),
-        "must_reach": st.column_config.CheckboxColumn("Must reach", width=90, help="Its peaks hold whatever happens, as closed lips do."),
-        "description": st.column_config.TextColumn("What it is", disabled=True, width=200),
+        "pose": st.column_config.TextColumn("Pose", disabled=True),
+        "priority": st.column_config.NumberColumn("Priority", min_value=0, step=1, help="Empty: it yields to all that have one."),
+        "speed": st.column_config.NumberColumn("Speed limit", min_value=0.1, step=0.5, help="Largest change of the weight in a second."),
+        "must_reach": st.column_config.CheckboxColumn("Must reach", help="Its peaks hold whatever happens, as closed lips do."),
     }
 
 
@@ -128,12 +124,16 @@ def _threshold_columns(poses: list[str]) -> dict[str, Any]:
     return {
         "pose": st.column_config.SelectboxColumn("Pose", options=poses, required=True),
         "other": st.column_config.SelectboxColumn("Other pose", options=poses, required=True),
-        "threshold": st.column_config.NumberColumn("Threshold", min_value=0.0, max_value=2.0, step=0.05, required=True),
+        "threshold": _bound("Threshold"),
     }
 
 
 def _whole_columns() -> dict[str, Any]:
     return {
-        "threshold": st.column_config.NumberColumn("All other pairs", min_value=0.0, max_value=2.0, step=0.05, required=True),
+        "threshold": _bound("All other pairs"),
         "window": st.column_config.NumberColumn("Valleys filled (s)", min_value=0.0, max_value=1.0, step=0.01, required=True),
     }
+
+
+def _bound(label: str) -> Any:
+    return st.column_config.NumberColumn(label, min_value=0.0, max_value=2.0, step=0.05, required=True, help="2 binds nothing.")

@@ -91,7 +91,7 @@ def table(held: Held, which: str, columns: Mapping[str, Any], *, rows: Literal["
     edited = st.data_editor(
         pd.DataFrame(held.began[which], columns=list(columns)),
         column_config=dict(columns),
-        num_rows=rows,
+        num_rows=rows if visitor().editor else "fixed",
         hide_index=True,
         disabled=not visitor().editor,
         key=held.widget(which),
