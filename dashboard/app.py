@@ -5,6 +5,7 @@ from pathlib import Path
 import streamlit as st
 from parts.ahead import fetch_ahead
 from parts.leaving import tell_browser
+from parts.looks import theme
 from parts.session import greet
 
 # An icon of its own: Streamlit would fetch one by name from the internet.
@@ -13,6 +14,8 @@ SIDEBAR = 220  # pixels; faces, lanes and tables need the rest
 st.set_page_config(page_title="lipdb", page_icon=str(PARTS / "mark.svg"), layout="wide", initial_sidebar_state=SIDEBAR)
 st.logo(str(PARTS / "wordmark.svg"), size="large", icon_image=str(PARTS / "mark.svg"))
 st.html(PARTS / "page.css")
+# Dialogs and popovers stand beside the app, which alone has the scheme of the theme.
+st.html(f"<style>:root {{ color-scheme: {theme()}; }}</style>")
 st.html(f"<script>{(PARTS / 'page.js').read_text('utf-8')}</script>", unsafe_allow_javascript=True)
 page = st.navigation(
     [

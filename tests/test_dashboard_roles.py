@@ -113,7 +113,7 @@ st.write(f"{visitor().name} looks at revision {database().store.revision}")
 
 def words(shown: AppTest) -> str:
     assert not shown.exception
-    return " ".join(one.value for kind in ("title", "markdown", "error") for one in shown.get(kind))
+    return " ".join(one.value for kind in ("title", "markdown", "text", "error") for one in shown.get(kind))
 
 
 def test_who_is_not_signed_in_sees_a_button_and_nothing_else(db) -> None:

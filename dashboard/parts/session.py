@@ -98,7 +98,7 @@ def greet() -> None:
     elif st.user.is_logged_in:
         who = visitor()
         role = "editor" if who.editor else "viewer" if who.reader else "not let in"
-        st.sidebar.write(f"{who.name or 'No address'} ({role})")
+        st.sidebar.text(f"{who.name or 'No address'} ({role})")  # as it is: Markdown would make a link of it
         st.sidebar.button("Sign out", on_click=st.logout)
         if not who.reader:
             st.error(f"{who.name or 'You'} may not look at this. Ask to be let in, or sign out and in again as somebody else.")
