@@ -16,9 +16,9 @@ from functools import partial
 from queue import SimpleQueue
 from typing import Any, Generic, NamedTuple, Self, TypeVar
 
-from lipdb.coverage.interrupts import uninterrupted
 from lipdb.coverage.processes import CAN_LIMIT, Packed, process_pool, within
 from lipdb.errors import LipdbError
+from lipdb.interrupts import give
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -112,17 +112,11 @@ class Workers:
         limited = self._seconds and not self._threads and not self._scheduler and CAN_LIMIT
         do = partial(within, self._seconds(task), work) if limited and self._seconds else work
         try:
-            return self._given(do, task, done)
+            return give(self._executor, done, do, task)
         except BrokenProcessPool:
             self._stack.close()
             self._start()
-            return self._given(do, task, done)
-
-    def _given(self, work: Callable[[Task], Result], task: Task, done: SimpleQueue[Future[Result]]) -> Future[Result]:
-        with uninterrupted():
-            future = self._executor.submit(work, task)
-            future.add_done_callback(done.put)
-        return future
+            return give(self._executor, done, do, task)
 
     def _start(self) -> None:
         if self._scheduler:

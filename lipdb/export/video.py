@@ -6,16 +6,18 @@ One encoding thread and bit-exact flags, so the same pictures and sound give the
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from fractions import Fraction
 from itertools import chain
 from pathlib import Path
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lipdb.errors import MissingToolError
+from lipdb.interrupts import give
 from lipdb.render.film import FPS, film
 
 if TYPE_CHECKING:
@@ -59,9 +61,10 @@ def write_mp4(performance: Performance, path: Path) -> None:
 def _ahead(pictures: Iterator[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
     """The same pictures, each drawn while the one before it is being encoded."""
     with ThreadPoolExecutor(max_workers=1) as pool:
-        coming = pool.submit(next, pictures, None)
-        while (picture := coming.result()) is not None:
-            coming = pool.submit(next, pictures, None)
+        done: SimpleQueue[Future[NDArray[np.uint8] | None]] = SimpleQueue()
+        give(pool, done, next, pictures, None)
+        while (picture := done.get().result()) is not None:
+            give(pool, done, next, pictures, None)
             yield picture
 
 

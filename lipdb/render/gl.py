@@ -15,13 +15,15 @@ import sys
 import threading
 import types
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache
+from queue import SimpleQueue
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
 from lipdb.errors import MissingToolError
+from lipdb.interrupts import give
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -42,7 +44,9 @@ def on_gl_thread(function: Callable[Arguments, Result], *args: Arguments.args, *
     """
     if getattr(_here, "owns", False):
         return function(*args, **kwargs)
-    return _thread.submit(function, *args, **kwargs).result()
+    done: SimpleQueue[Future[Result]] = SimpleQueue()
+    give(_thread, done, function, *args, **kwargs)
+    return done.get().result()
 
 
 @cache

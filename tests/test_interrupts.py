@@ -1,4 +1,4 @@
-"""Signals that come while a pool's locks are taken."""
+"""Ctrl-C and the like while work is given to other threads and processes."""
 
 import signal
 import threading
@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from lipdb.coverage.executors import Workers
-from lipdb.coverage.interrupts import uninterrupted
+from lipdb.interrupts import uninterrupted
 
 
 def test_what_comes_meanwhile_comes_afterwards() -> None:
