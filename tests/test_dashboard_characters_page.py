@@ -130,7 +130,7 @@ BAD = [
     ("bob", [("a.glb", Builder(()).glb())], "a.glb: has no morph targets"),
     ("bob", [("a.glb", Builder(("nose", "ear")).glb())], "none of the known sets"),
     ("bob", [("a.zip", packed([("A.svg", b" " * 100_000_000)]))], "unpacks to more than 64 MB"),
-    ("bob", [("A.svg", SVG.replace(b"<path", b"<script/><path"))], "element script, which is more than a picture"),
+    ("bob", [("A.svg", SVG.replace(b"<path", b"<script/><path"))], "A.svg: this SVG has an element script, which is more than a picture"),
     ("bob", [("a.glb", b"")], "is empty"),
     ("bob", [], "choose a .glb or .vrm file"),
     ("", [("a.glb", b"x")], "short name"),

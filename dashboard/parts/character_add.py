@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import PureWindowsPath
+from pathlib import Path, PureWindowsPath
 
 import streamlit as st
 from parts.session import visitor, writable
 from parts.uploads import contents, scratch
 
 from lipdb.characters.add import Added
+from lipdb.characters.pictures import picture_files
 from lipdb.characters.uploaded import LARGEST, lay_out
 from lipdb.errors import InputError, LipdbError
 from lipdb.words import counted
@@ -43,12 +44,20 @@ def add_form(look_at: Callable[[str], None]) -> None:
             try:
                 st.session_state[ADDED] = db.add_character(path, name=name.strip(), title=title.strip(), author=author)
             except LipdbError as error:
-                # The file's own name, not that of the copy.
-                error.args = (str(error).replace(path.name, PureWindowsPath(files[0].name).name[:60]),) if path.is_file() else error.args
+                error.args = (_renamed(str(error), path, files[0].name),)
                 raise
         st.rerun()
     if ADDED in st.session_state:
         _tell(st.session_state[ADDED], look_at)
+
+
+def _renamed(told: str, path: Path, first: str) -> str:
+    """*told* with the names that files have where they come from, *first* for a mesh, in place of those of the copies at *path*."""
+    if path.is_file():
+        return told.replace(path.name, PureWindowsPath(first).name[:60])
+    for shape, file in picture_files(path).items():
+        told = told.replace(str(file), f"{shape}{file.suffix}")
+    return told
 
 
 def _tell(added: Added, look_at: Callable[[str], None]) -> None:

@@ -73,7 +73,9 @@ def _links_table(held: Held, poses: Sequence[str], shapes: Sequence[str]) -> Cel
         "shape": st.column_config.SelectboxColumn("Shape", options=list(shapes), required=True),
         "gain": st.column_config.NumberColumn("Gain", step=0.05, default=1.0, required=True),
         "combine": st.column_config.SelectboxColumn("Combine", options=["sum", "max"], default="sum", required=True),
-        "curve": st.column_config.TextColumn("Curve", width=130, help="Bends the weight before the gain; drawn below. Empty: straight."),
+        "curve": st.column_config.TextColumn(
+            "Curve", width=75 if doubtful else 130, help="Bends the weight before the gain; drawn below. Empty: straight."
+        ),
         "own": st.column_config.CheckboxColumn("Own", disabled=True, help="The character's own, not the shared table's."),
     }
     if doubtful:

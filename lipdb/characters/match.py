@@ -81,7 +81,8 @@ def match(shapes: Sequence[str], records: Records) -> Match:
     best = max(found, key=lambda entry: entry[:3], default=None)
     if best is None or best[2] < LEAST:
         some = ", ".join(shapes[:8]) + (" …" if len(shapes) > 8 else "")
-        raise InputError(f"none of the known sets has shapes of these names ({some}); rename them as ARKit, VRM, Oculus, FaceFX or Rhubarb (A to H, X) do")
+        known_by = "ARKit, VRM, Oculus, FaceFX or Rhubarb (A to H, X)"
+        raise InputError(f"none of the known sets has shapes of these names ({some}); rename them as {known_by} do")
     _, _, share, shape_set, known, links = best
     return Match(shape_set, share, tuple(_proposals(links, known)))
 
