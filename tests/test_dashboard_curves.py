@@ -205,7 +205,7 @@ def test_a_pair_that_is_right_is_accepted_and_that_is_taken_back(app, curves) ->
     open_curves(app, curves, name="anna", pair="l-eh")
     before = stored(app, "l", "eh", "open")
     curves.get_by_role("button", name="Accept as it is").click()
-    curves.get_by_text("Saved l-eh, accepted as it is to common").wait_for()
+    curves.get_by_text("Saved l-eh, accepted as it is, to common").wait_for()
     with lipdb.open(str(app.database)) as db:
         assert not db.uses({("l", "eh"): 1.0}, language="en", character="robin")[0].gap
     assert stored(app, "l", "eh", "open") == before

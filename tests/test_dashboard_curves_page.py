@@ -104,6 +104,14 @@ def test_the_editor_keeps_its_steps_when_a_save_changed_nothing_else(db) -> None
     assert db.records["curves/facefx.tsv"]["l", "ow", "W"]["keys"] == ""  # zero, not "no row"
 
 
+def test_who_saves_without_a_name_is_asked_for_it_below_the_button_and_keeps_the_faces(db) -> None:
+    page = edit(curves_page(db, visitor=""), W=PEAK)
+    press(page, "Save")
+    assert [error.value for error in page.error] == ["who are you? Give your name in the side bar; it stands beside every change"]
+    assert [one.proto.component_name for one in page.get("bidi_component")] == ["lipdb.keys", "lipdb.stage", "lipdb.stage"]
+    assert len(page.expander) == 1
+
+
 def test_undo_beside_saved_takes_exactly_that_revision_back(db) -> None:
     before = db.records["curves/facefx.tsv"]["l", "ow", "W"]
     page = edit(curves_page(db), W=PEAK)
@@ -133,7 +141,7 @@ def test_a_pair_that_is_right_is_accepted_as_it_is_and_that_can_be_taken_back(db
     page = edit(curves_page(db), W=PEAK)
     before = {pose: lane(page, pose)["keys"] for pose in ("open", "wide")}
     press(page, "Accept as it is")
-    assert f"Saved l-ow, accepted as it is to common as revision {db.store.revision}." in said(page)
+    assert f"Saved l-ow, accepted as it is, to common as revision {db.store.revision}." in said(page)
     [use] = db.uses({("l", "ow"): 1.0}, language="en", character="robin")
     assert (use.origin, use.gap) == ("authored", False)
     assert db.store.history(limit=1)[0].note == "l-ow, accepted as it is"

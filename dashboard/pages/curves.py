@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -122,10 +123,10 @@ def layers_of(place: Place) -> dict[str, Place]:
     return found | {row["title"] or row["character"]: replace(place, character=row["character"], kind=CHARACTER) for row in there}
 
 
-def ask_save(now: Held) -> None:
-    """Copying, note and button; what is not saved yet."""
+def ask_save(now: Held) -> Callable[[], None] | None:
+    """Copying, note and button; what is not saved yet. What saves, if the visitor has just asked for it."""
     if not visitor().editor:
-        return
+        return None
     place = now.draft.place
     copying, saving = st.columns([3, 8], vertical_alignment="bottom")
     with copying:
@@ -144,10 +145,12 @@ def ask_save(now: Held) -> None:
         right.button("Discard", key="curves_discard", on_click=partial(discard, place), width="stretch")
     else:
         show_saved(place, key="curves")
-    if pressed or accepted:
-        what = f"{place.pair}: {', '.join(now.changed)}" if pressed else f"{place.pair}, accepted as it is"
-        edits = now.edits() if pressed else now.acceptance()
-        save_or_ask(edits, note=text.strip() or what, seen=now.seen, after=partial(saved, place, what))
+    if not pressed and not accepted:
+        return None
+    what = f"{place.pair}: {', '.join(now.changed)}" if pressed else f"{place.pair}, accepted as it is"
+    edits = now.edits() if pressed else now.acceptance()
+    after = partial(saved, place, what if pressed else f"{what},")
+    return partial(save_or_ask, edits, note=text.strip() or what, seen=now.seen, after=after)
 
 
 def overtaken(now: Held) -> str:
@@ -174,23 +177,22 @@ def show_sources(now: Held) -> None:
     with st.expander("Where these curves come from", key="curves_sources", on_change="rerun") as sources:
         if not sources.open:
             return
-        rows = []
-        for pose, lane in now.draft.lanes.items():
-            curve = lane.own or lane.below.curve
-            layer = now.draft.place.layer if lane.own else lane.below.where
-            rows.append(
-                {
-                    "pose": pose,
-                    "layer": layer,
-                    "origin": curve.origin,
-                    "author": curve.author,
-                    "time": curve.time,
-                    "source": curve.source,
-                    "comment": curve.comment,
-                    "seen instead": lane.hidden,
-                }
-            )
-        st.dataframe(rows, hide_index=True)
+        rows = [
+            {
+                "pose": pose,
+                "layer": now.draft.place.layer if lane.own else lane.below.where,
+                "origin": curve.origin,
+                "author": curve.author,
+                "when (UTC)": curve.time.replace("T", " ").rstrip("Z"),
+                "source": curve.source,
+                "comment": curve.comment,
+                "seen instead": lane.hidden,
+            }
+            for pose, lane in now.draft.lanes.items()
+            for curve in [lane.own or lane.below.curve]
+        ]
+        said = [column for column in rows[0] if any(row[column] for row in rows)]  # else empty columns push others out
+        st.dataframe(rows, hide_index=True, column_order=said)
 
 
 @st.fragment
@@ -205,11 +207,15 @@ def work(place: Place) -> None:
         with left:
             drawn = loop.drawn(place.view(records), database().pose_set(place.pose_set))
             editor(now, drawn, stage=LOOP, span=(loop.start, loop.border, loop.end))
-            ask_save(now)
+            save = ask_save(now)
+            answer = st.container()
             show_sources(now)
         with right:
             show_loop(place, records, loop)
             show_sentence(place, records)
+        if save:
+            with answer, shown_errors():  # which stops: so it comes when all else is there
+                save()
 
 
 with shown_errors():

@@ -112,9 +112,8 @@ def _answer(asked: _Asked, choice: Choice, edits: Sequence[Edited]) -> None:
 
 def _both(versions: Versions, seen: int) -> None:
     """One row as both sides have it: curves as curves, other rows as a table."""
-    name = " ".join(versions.key)
     if "/curves/" in f"/{versions.path}":
-        st.write(f"**{name}**")
+        st.write("**{}-{} {}**".format(*versions.key))
         before = state(seen).records.get(versions.path, {}).get(versions.key)
         drawn = {"mine": versions.mine, "theirs": versions.theirs, "before": before}
         st.altair_chart(curves_chart({who: _keys(row) for who, row in drawn.items()}), width="stretch")
@@ -122,7 +121,7 @@ def _both(versions: Versions, seen: int) -> None:
         if absent:
             st.caption(f"{' and '.join(absent)} {ABSENT}")
         return
-    st.write(f"**{name}** ({versions.path})")
+    st.write(f"**{' '.join(versions.key)}** ({versions.path})")
     columns = dict.fromkeys([*(versions.mine or {}), *(versions.theirs or {})])
     cells = [
         {"": who, **{column: (row or {}).get(column, ABSENT) for column in columns}}

@@ -100,7 +100,7 @@ def ask() -> Place:
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
     phones = sorted((key[0] for key in db.records["common.tsv"]), key=lambda phone: (phone == SILENCE, phone))
     _keep_known(chosen, languages, characters, phones)
-    columns = st.columns([5, 3, 3, 4, 4, 5], vertical_alignment="bottom")
+    columns = st.columns([9, 5, 5, 7, 9, 12], vertical_alignment="bottom")
     asked: tuple[tuple[DeltaGenerator, str, str, list[str], dict[str, str]], ...] = (
         (columns[1], "left", "From", phones, {}),
         (columns[2], "right", "To", phones, {}),
@@ -197,8 +197,8 @@ def _matrix_chart(uses: list[PairUse], chosen: Choice) -> alt.LayerChart | alt.F
     colours = alt.Scale(domain=there, range=[ORIGIN_COLOURS[origin] for origin in there])
     legend = alt.Legend(orient="bottom", title="where its curves come from", symbolStrokeWidth=0)
     cells = alt.Chart(pd.DataFrame(rows), width=alt.Step(CELL), height=alt.Step(CELL)).encode(
-        x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0, labelOverlap=False)),
-        y=alt.Y("left:N", sort=order, title="from", axis=alt.Axis(labelOverlap=False)),
+        x=alt.X("right:N", sort=order, title="to", axis=alt.Axis(orient="top", labelAngle=0, labelOverlap=False, labelFlush=False)),
+        y=alt.Y("left:N", sort=order, title="from", axis=alt.Axis(labelOverlap=False, labelFlush=False)),
         tooltip=["left:N", "right:N", "origin:N", "layer:N"],
     )
     here = (alt.datum.left == chosen.left) & (alt.datum.right == chosen.right)

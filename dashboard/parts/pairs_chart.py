@@ -63,7 +63,7 @@ def heat_map(table: pd.DataFrame, colouring: str, order: Sequence[str]) -> alt.C
         alt.Tooltip("origin:N"),
         alt.Tooltip("layer:N"),
     ]
-    axis = alt.Axis(labelAngle=0, labelOverlap=False, labelFontSize=12, ticks=False, domain=False, grid=False)
+    axis = alt.Axis(labelAngle=0, labelOverlap=False, labelFlush=False, labelFontSize=12, ticks=False, domain=False, grid=False)
     base = alt.Chart(table, height=CELL * len(order) + AROUND).encode(
         x=alt.X("right:N", sort=list(order), title="to", axis=axis, scale=alt.Scale(domain=list(order), paddingInner=0.06)),
         y=alt.Y("left:N", sort=list(order), title="from", axis=axis, scale=alt.Scale(domain=list(order), paddingInner=0.06)),
