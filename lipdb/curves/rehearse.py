@@ -75,14 +75,15 @@ class Rehearsal:
         # Which phones close which pose is a matter of all pairs.
         alone = replace(CurveTable.build(table.phones, table.poses, curves), mean_reach=table.mean_reach)
         track = animate(alone, pose_set, edges, phones, fps=DRAWN_RATE)
-        inside = (track.times >= self.start) & (track.times <= self.end)
-        times = track.times[inside]
+        inside = (track.times > self.start) & (track.times < self.end)
+        times = np.concatenate([[self.start], track.times[inside], [self.end]])
         even = (times - self.start) / (self.end - self.start)
         bent = np.interp(times, (self.start, self.border, self.end), (0.0, 0.5, 1.0))
         drawn = {}
         for pose in track.poses:
             at = even if curves[self.left, self.right, pose].warp == "linear" else bent
-            drawn[pose] = tuple((round(float(t), 4), round(float(w), 4)) for t, w in zip(at, track.pose(pose)[inside], strict=True))
+            weights = np.interp(times, track.times, track.pose(pose))
+            drawn[pose] = tuple((round(float(t), 4), round(float(w), 4)) for t, w in zip(at, weights, strict=True))
         return drawn
 
 
