@@ -183,7 +183,7 @@ def show_sources(now: Held) -> None:
                 "layer": now.draft.place.layer if lane.own else lane.below.where,
                 "origin": curve.origin,
                 "author": curve.author,
-                "when (UTC)": curve.time.replace("T", " ").rstrip("Z"),
+                "when (UTC)": curve.time[:16].replace("T", " "),
                 "source": curve.source,
                 "comment": curve.comment,
                 "seen instead": lane.hidden,
