@@ -39,6 +39,14 @@ def test_a_page_says_so_when_the_database_was_upgraded_and_saves_nothing(db) -> 
     assert db.store.revision == 2
 
 
+def test_a_page_says_so_when_the_database_was_damaged_under_it(db, tmp_path) -> None:
+    (file,) = tmp_path.glob("*.db")
+    for left in tmp_path.glob(f"{file.name}-*"):
+        left.unlink()
+    file.write_bytes(b"garbage " * 1000)
+    assert words(page("history")).endswith("this file is not a database; give another one with --db, or move it away and a new one is made")
+
+
 def test_a_page_says_so_when_a_newer_lipdb_was_installed(db, monkeypatch) -> None:
     shown = page("history")
     import parts.upgrade

@@ -114,8 +114,11 @@ def greet() -> None:
 
 
 def in_words(told: LipdbError | str) -> str:
-    """An error or a note for people before a page: without what the command line is given, its options and ``text:``."""
-    return re.sub(r"(?<!\S)--(?=[a-z])", "", str(told)).removeprefix("text: ")
+    """An error or a note for people before a page: without what the command line is given, its options and ``text:``.
+
+    The database is given to the command line alone, so ``--db`` stays.
+    """
+    return re.sub(r"(?<!\S)--(?=[a-z])(?!db\b)", "", str(told)).removeprefix("text: ")
 
 
 @contextmanager
