@@ -153,7 +153,7 @@ with shown_errors():
     wanted = asked()
     revisions = database().store.find(wanted, limit=MOST)
     if not revisions:
-        st.info("No change is like this. Choose “any” again where you chose something.")
+        st.info("No change is like this. Choose “any” where you chose something, and empty what you typed.")
         st.stop()
     one = choose(revisions)
     st.subheader(f"Revision {one.number}: {one.note or 'no note'}")
