@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
+import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from PIL import Image
 
 from lipdb.errors import MissingToolError
 from lipdb.performance import Performance
+from lipdb.progress import reported
 from lipdb.render.film import film, frame_count, sampled, stills
 from lipdb.sound import Sound
 from lipdb.track import Track
@@ -56,6 +58,16 @@ def test_mp4_holds_every_frame_and_all_of_the_sound_in_time(tmp_path: Path) -> N
     assert shift / rate < 0.07
     for drawn, shown in zip(film(take), pictures, strict=True):
         assert np.abs(drawn.astype(int) - shown).mean() < 2
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".webp"])
+def test_who_asks_hears_in_their_own_thread_of_every_frame(tmp_path: Path, suffix: str) -> None:
+    heard: list[tuple[int, int, bool]] = []
+    here = threading.get_ident()
+    with reported(lambda _, done, total: heard.append((done, total, threading.get_ident() == here))):
+        flat_performance(tmp_path).save(tmp_path / f"a{suffix}")
+    assert heard == [(done, len(heard), True) for done in range(1, len(heard) + 1)]
+    assert len(heard) > 20
 
 
 def test_two_processes_write_the_same_bytes(tmp_path: Path) -> None:

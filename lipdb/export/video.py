@@ -6,18 +6,14 @@ One encoding thread and bit-exact flags, so the same pictures and sound give the
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from fractions import Fraction
 from itertools import chain
 from pathlib import Path
-from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lipdb.errors import MissingToolError
-from lipdb.interrupts import give
 from lipdb.render.film import FPS, film
 
 if TYPE_CHECKING:
@@ -40,7 +36,7 @@ def write_mp4(performance: Performance, path: Path) -> None:
         import av
     except ImportError as error:
         raise MissingToolError("MP4 needs PyAV; run `pip install av`, or write .webp instead") from error
-    pictures = _ahead(film(performance, fps=FPS))
+    pictures = film(performance, fps=FPS, ahead=True)
     first = next(pictures)
     # The muxer's own date and version would make two files differ; faststart lets a browser play before it has all.
     with av.open(str(path), "w", format="mp4", options={"fflags": "+bitexact", "movflags": "+faststart"}) as file:
@@ -56,16 +52,6 @@ def write_mp4(performance: Performance, path: Path) -> None:
                 ahead = next(packets, None)
         file.mux(stream.encode(None))
         file.mux(([ahead] if ahead is not None else []) + list(packets))
-
-
-def _ahead(pictures: Iterator[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
-    """The same pictures, each drawn while the one before it is being encoded."""
-    with ThreadPoolExecutor(max_workers=1) as pool:
-        done: SimpleQueue[Future[NDArray[np.uint8] | None]] = SimpleQueue()
-        give(pool, done, next, pictures, None)
-        while (picture := done.get().result()) is not None:
-            give(pool, done, next, pictures, None)
-            yield picture
 
 
 def _picture_stream(file: Any, width: int, height: int) -> Any:

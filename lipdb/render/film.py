@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from queue import SimpleQueue
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lipdb.errors import MeshError
+from lipdb.interrupts import give
 from lipdb.progress import steps
 from lipdb.render.flat import Pictures
 from lipdb.render.renderer import Renderer
@@ -22,13 +25,16 @@ FPS = 30
 SIZE = (512, 512)
 
 
-def film(performance: Performance, *, fps: float = FPS, size: tuple[int, int] = SIZE, view: str = "front") -> Iterator[NDArray[np.uint8]]:
+def film(
+    performance: Performance, *, fps: float = FPS, size: tuple[int, int] = SIZE, view: str = "front", ahead: bool = False
+) -> Iterator[NDArray[np.uint8]]:
     """Pictures ``(height, width, 3)`` of the whole performance, *fps* a second, until both track and sound have ended.
 
-    A mesh is drawn at the shapes' weights; flat pictures follow the cues, held as `Performance.cues` holds them.
+    A mesh is drawn at the shapes' weights; flat pictures follow the cues, held as `Performance.cues` holds them. With *ahead*
+    each is drawn, by another thread, while the one before it is used.
     """
     times = np.arange(frame_count(performance, fps)) / fps
-    yield from stills(performance, times, size=size, view=view)
+    yield from stills(performance, times, size=size, view=view, ahead=ahead)
 
 
 def frame_count(performance: Performance, fps: float) -> int:
@@ -39,10 +45,22 @@ def frame_count(performance: Performance, fps: float) -> int:
 
 
 def stills(
-    performance: Performance, times: NDArray[np.float64], *, size: tuple[int, int], view: str = "front"
+    performance: Performance, times: NDArray[np.float64], *, size: tuple[int, int], view: str = "front", ahead: bool = False
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture at each of *times* (seconds, in order)."""
-    yield from steps(_drawn(performance, times, size=size, view=view), total=len(times), what=f"drawing {performance.character.name}")
+    pictures = _drawn(performance, times, size=size, view=view)
+    # Counted here and not where they are drawn: only the thread that asked can tell somebody.
+    yield from steps(_ahead(pictures) if ahead else pictures, total=len(times), what=f"drawing {performance.character.name}")
+
+
+def _ahead(pictures: Iterator[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
+    """The same pictures, each drawn while the one before it is used."""
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        done: SimpleQueue[Future[NDArray[np.uint8] | None]] = SimpleQueue()
+        give(pool, done, next, pictures, None)
+        while (picture := done.get().result()) is not None:
+            give(pool, done, next, pictures, None)
+            yield picture
 
 
 def _drawn(performance: Performance, times: NDArray[np.float64], *, size: tuple[int, int], view: str) -> Iterator[NDArray[np.uint8]]:
