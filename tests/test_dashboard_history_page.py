@@ -66,7 +66,7 @@ def test_revisions_are_found_by_person_kind_character_pair_and_note(db) -> None:
     assert revisions(page("history", history_table="curves")) == [3, 2, 1]
     assert revisions(page("history", history_character="robin")) == [3, 1]
     assert revisions(page("history", history_pair="l-ow", history_words="rounder")) == [2]
-    assert "No change is like this. Choose “any” where you chose something, and empty what you typed." in texts(page("history", history_words="xyz"))
+    assert any("No change is like this" in text for text in texts(page("history", history_words="xyz")))
     assert any("a pair is two common phones" in text for text in texts(page("history", history_pair="low")))
 
 
