@@ -84,7 +84,7 @@ def _recording(language: str) -> Line | None:
     left, right = st.columns(2)
     suffixes = sorted({*plugins.readers(), ".json"})
     aligned = left.file_uploader(
-        f"Aligned phones ({' '.join(suffixes)})",
+        f"Aligned phones ({', '.join(suffixes)})",
         type=[suffix[1:] for suffix in suffixes],
         key="say_grid",
         max_upload_size=LARGEST // 1_000_000,
