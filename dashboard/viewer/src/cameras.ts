@@ -41,6 +41,7 @@ export class Cameras {
     this.body = body;
     const size = body.getSize(new Vector3()).length() / 2;
     (moved.isEmpty() ? body : moved).getCenter(this.centre);
+    this.centre.z = (this.centre.z + body.getCenter(new Vector3()).z) / 2; // else the back of a head is cut off at its side
     this.radius = moved.isEmpty() ? size : Math.min(moved.getSize(new Vector3()).length() * ROOM, size);
     this.look(this.angles);
   }
@@ -54,6 +55,7 @@ export class Cameras {
       camera.position.set(Math.sin(angle), 0, Math.cos(angle)).multiplyScalar(this.distance(aspect)).add(this.centre);
       camera.lookAt(this.centre);
     });
+    this.part();
     this.controls.target.copy(this.centre);
     this.controls.update();
     this.turned();
@@ -70,7 +72,15 @@ export class Cameras {
     return placed(this.angles.length, this.root.clientWidth || 1, this.root.clientHeight || 1);
   }
 
+  /** Say for the lines between views how they stand. */
+  private part(): void {
+    const { places } = this;
+    this.root.classList.toggle("row", places.length > 1 && places[0].bottom === 0);
+    this.root.classList.toggle("pile", places[0].bottom > 0);
+  }
+
   resize(): void {
+    this.part();
     this.places.forEach(({ aspect }, k) => {
       const camera = this.each[k];
       if (aspect !== camera.aspect) camera.position.sub(this.centre).setLength(this.distance(aspect)).add(this.centre);

@@ -10,7 +10,7 @@ interface Component {
   setStateValue(name: string, value: unknown): void;
 }
 
-const HELP = "Drag a key. Click a line, or double-click a lane, for a new one; double-click a key, or Delete, takes it away. Arrows move it by 0.01.";
+const HELP = "Drag a key. Click a line, or double-click a lane, for a new one; double-click a key, or Delete, takes it away. Arrows move it by 0.01. Each lane goes from 0 to 1.";
 const LOCKED = "You may look, but not change.";
 /** Milliseconds after the last of several quick changes until they are sent. */
 const PAUSE = 120;
