@@ -1,4 +1,6 @@
-if (!window.lipdbUnsaved) {
+if (!window.lipdbListens) {
+  window.lipdbListens = true;
+
   // A button does once what it does: the second click of a double click is none. Streamlit would begin anew beside what is under way, or
   // click what has come to stand there meanwhile: Undo, which then takes back an undo.
   document.addEventListener("click", (event) => {
@@ -7,10 +9,8 @@ if (!window.lipdbUnsaved) {
     event.preventDefault();
   }, true);
 
-  // Who leaves is asked first while something is unsaved: parts/leaving.py says whether it is.
-  let held = false;
-  window.lipdbUnsaved = (unsaved) => { held = unsaved; };
+  // Who leaves is asked first while something is unsaved: parts/leaving.js has heard whether it is, at times before this is here.
   window.addEventListener("beforeunload", (event) => {
-    if (held) event.preventDefault();
+    if (window.lipdbUnsaved?.unsaved.length) event.preventDefault();
   });
 }
