@@ -159,3 +159,21 @@ def test_a_broken_mesh_is_refused_in_a_line(app, visitors) -> None:
     message.wait_for()
     assert message.inner_text().strip().splitlines()[-1].startswith("evil.glb: ")
     assert not list(Path(app.database.parent / "characters").glob("*"))
+
+
+def test_on_a_dark_page_dark_letters_stand_on_what_is_filled_and_light_ones_elsewhere(app, chromium) -> None:
+    dark = "rgb(14, 17, 23)"
+    with tab(chromium, color_scheme="dark") as page:
+
+        def letters(button: str) -> str:
+            return page.get_by_role("button", name=button, exact=True).evaluate("button => getComputedStyle(button).color")
+
+        page.goto(f"{app.url}/characters?character=crab")
+        page.get_by_role("button", name="Save", exact=True).wait_for()
+        settled(page)
+        at_rest(page)
+        assert letters("Save") != dark  # nothing is to be saved, so it is not filled
+        page.get_by_test_id("stButtonGroup").get_by_text("Overrides").click()
+        page.get_by_role("button", name="Reset all").click()
+        page.get_by_role("button", name="Reset all of them").wait_for()
+        assert letters("Reset all of them") == dark
