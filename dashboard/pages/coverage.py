@@ -63,6 +63,7 @@ def ask() -> Chosen:
         list(names),
         format_func=names.__getitem__,
         key=keep("coverage_languages", ["en"] if "en" in names else list(names)[:1], among=names),
+        wrap=True,
     )
     offered = {corpus.key: corpus for corpus in corpora(languages)}
     among = "coverage_text " + " ".join(offered)
@@ -71,6 +72,7 @@ def ask() -> Chosen:
         list(offered),
         format_func=lambda key: offered[key].label,
         key=keep(among, usual(list(offered.values()))),
+        wrap=True,
         help="What is counted: scans of corpora, or a language's example sentences. Texts of one language add up; "
         "several languages weigh the same.",
     )
@@ -136,7 +138,7 @@ def show_sums(now: Chosen) -> None:
         "Covered by hand", f"{outlook(now.needed).covered:.1f} %", help="The part of running text whose curves are authored or fitted."
     )
     for what, rows in by_curve(now.needed).items():
-        config: dict[str, Any] = {"percent": st.column_config.NumberColumn("% of text", format="%.1f"), what: what.capitalize()}
+        config: dict[str, Any] = {"percent": st.column_config.NumberColumn("% of text", format="%.1f")}
         st.dataframe(pd.DataFrame(rows), hide_index=True, column_config=config, key=f"coverage_by_{what}")
 
 
@@ -159,7 +161,7 @@ def show_frequency(now: Chosen) -> None:
 
 def show_to_do(now: Chosen) -> None:
     """What to draw next, the hours left, and what the next ten change."""
-    minutes = st.number_input("Minutes a pair", 0.5, 120.0, step=0.5, key=keep("coverage_minutes", MINUTES), width=160)
+    minutes = st.number_input("Minutes a pair", 0.5, 120.0, step=0.5, format="%g", key=keep("coverage_minutes", MINUTES), width=160)
     found, told = gaps(now.needed, minutes=minutes), outlook(now.needed, minutes=minutes)
     columns = st.columns(4)
     columns[0].metric("Pairs to draw", f"{told.gaps} of {told.pairs}")

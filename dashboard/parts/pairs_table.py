@@ -52,7 +52,7 @@ def pairs_table(rows: pd.DataFrame, pairs: Sequence[tuple[str, str]], go: Callab
         "cumulative": number("% so far", format="%.2f", help="This pair and all more frequent ones"),
         "covered": number("% then", format="%.2f", help="By hand, when this pair and all before it are done"),
         "hours": number("hours", format="%.1f", help="Until this pair and all before it are done"),
-        "paper": text("paper %", width=75, help="Xu et al. 2013, Table 2"),
+        "paper": text("paper %", width=75, alignment="right", help="Xu et al. 2013, Table 2"),
         "done": text("poses done", help="Of those that move the face in this pair"),
         "lines": text("lines", help="Where the script needs it"),
     }

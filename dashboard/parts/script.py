@@ -97,9 +97,10 @@ def show_script(script: Script, language: str, character: str, *, silence: bool)
             _by_line(script, missing),
             hide_index=True,
             key="coverage_lines",
+            # What is pinned keeps its width: the room that is left is for what is said and what it needs.
             column_config={
-                "line": st.column_config.NumberColumn(width=50),
-                "open": st.column_config.NumberColumn(width=55, help="Pairs that nobody has drawn or fitted"),
+                "line": st.column_config.NumberColumn(width=50, pinned=True),
+                "open": st.column_config.NumberColumn(width=55, pinned=True, help="Pairs that nobody has drawn or fitted"),
                 "text": st.column_config.TextColumn(width=220),
                 "missing": st.column_config.ListColumn("pairs", width=230),
             },
