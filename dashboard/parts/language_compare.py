@@ -167,7 +167,7 @@ def _conflicts(mine: Merging) -> None:
             if side:
                 mine.choices[one.place] = side
     if len(conflicts) > MOST_CONFLICTS:
-        st.caption(f"{len(conflicts) - MOST_CONFLICTS} more follow when these are saved.")
+        st.caption(f"{counted(len(conflicts) - MOST_CONFLICTS, 'more follows', 'more follow')} when these are saved.")
 
 
 def _rows(mine: Merging) -> None:

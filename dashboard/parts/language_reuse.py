@@ -69,7 +69,7 @@ def show_reuse(code: str, _character: str | None) -> None:
         )
         if found.own:
             phones = "common phone" if len(found.own) == 1 else "common phones"
-            st.write(f"Only {code} has the {phones} **{' '.join(found.own)}**.")
+            st.write(f"Only {database().language(code)['name']} has the {phones} **{' '.join(found.own)}**.")
         _new_pairs(code, found)
 
 

@@ -74,7 +74,7 @@ def show_script(script: Script, language: str, character: str, *, silence: bool)
     missing = [gap.use for gap in gaps(uses)]
     spoken = len(script.lines) - len(script.left_out)
     st.subheader(f"This scene: {counted(len(uses), 'pair')}, {len(uses) - len(missing)} authored or fitted")
-    st.caption(f"{spoken} of {len(script.lines)} lines are read as {database().language(language)['name']}.")
+    st.caption(f"Lines read as {database().language(language)['name']}: {spoken} of {len(script.lines)}.")
     for line in script.left_out[:LISTED]:
         st.caption(f":material/info: line {line.number} is left out: {line.left_out}")
     if len(script.left_out) > LISTED:
