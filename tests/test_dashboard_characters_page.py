@@ -178,6 +178,16 @@ def test_a_draft_saves_what_its_visitor_changed_and_nothing_that_others_did(db, 
     assert gains(db) == {"W": "0.7"}
 
 
+def test_who_gives_no_name_reads_why_nothing_is_saved_and_keeps_draft_and_face(db, draft) -> None:
+    faces = len(stages(draft))
+    draft.session_state["visitor"] = ""
+    draft = draft.button(key="characters_links_robin_save").click().run()
+    assert "who are you? Give your name" in words(draft)
+    assert "1 row to save." in words(draft)
+    assert len(stages(draft)) == faces
+    assert gains(db) == {"W": "0.7"}
+
+
 def test_a_draft_waits_in_other_sections_and_with_other_characters_until_it_is_discarded(db, draft) -> None:
     draft.session_state["characters_section"] = "Rules"
     draft = draft.run()

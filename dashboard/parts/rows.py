@@ -16,10 +16,11 @@ from parts.conflict import Choice, save_or_ask
 from parts.leaving import lost_by_leaving
 from parts.lines import state
 from parts.saved import tell
-from parts.session import Edited, database, visitor
+from parts.session import Edited, database, in_words, visitor
 
 from lipdb import Database
 from lipdb.curated.tsv import Key, Row
+from lipdb.errors import LipdbError, SchemaVersionError
 
 Rows = Mapping[tuple[str, Key], Row | None]
 """What is to be saved, by table and key; None takes a row away."""
@@ -120,7 +121,10 @@ def save_button(name: str, held: Held, rows: Rows, *, note: str) -> None:
 
 
 def save_rows(rows: Rows, *, note: str, seen: int, name: str) -> None:
-    """Save *rows* of the editor *name* and begin anew; when somebody saved one of them since *seen*, ask what is to stay."""
+    """Save *rows* of the editor *name* and begin anew; when somebody saved one of them since *seen*, ask what is to stay.
+
+    What can't be saved is told here, and the page goes on: its face stays.
+    """
 
     def after(choice: Choice, revision: int | None) -> None:
         if choice == "edit":
@@ -128,8 +132,14 @@ def save_rows(rows: Rows, *, note: str, seen: int, name: str) -> None:
         drop(name)
         tell(name, f"Saved as revision {revision}." if revision else "Nothing is left to save.", revision)
 
-    save_or_ask([Edited(path, key, row) for (path, key), row in rows.items()], note=note, seen=seen, after=after)
-    st.rerun()
+    try:
+        save_or_ask([Edited(path, key, row) for (path, key), row in rows.items()], note=note, seen=seen, after=after)
+    except SchemaVersionError:  # nothing of the page counts any more
+        raise
+    except LipdbError as error:
+        st.error(in_words(error), icon=":material/error:")
+    else:
+        st.rerun()
 
 
 def drop(name: str) -> None:
