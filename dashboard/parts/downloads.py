@@ -60,12 +60,14 @@ def _film(performance: Performance, suffix: str, key: str) -> bytes | None:
     of, kind, made = st.session_state.get(place, (None, "", b""))
     if of is performance and kind == suffix:
         return made
-    place_of_button = st.empty()
-    if not place_of_button.button(f"Draw {suffix}", key=f"{key}_draw", help="Every frame is drawn; that takes some seconds."):
+    asked = f"{key}_draw_asked"
+    if not st.session_state.pop(asked, False):
+        told = "Every frame is drawn; that takes some seconds."
+        st.button(f"Draw {suffix}", key=f"{key}_draw", help=told, on_click=st.session_state.update, args=({asked: True},))
         return None
-    bar = place_of_button.progress(0.0, "Drawing…")
-    with reported(lambda what, done, total: bar.progress(min(done / max(total, 1), 1.0), f"{what}: {done} of {total} frames")):
+    bar = st.progress(0.0, "Drawing…")
+    with reported(lambda what, done, total: bar.progress(done / total, f"{what.capitalize()}: {done} of {total} frames")):
         made = content(performance, suffix)
-    place_of_button.empty()
+    bar.empty()
     st.session_state[place] = performance, suffix, made
     return made
