@@ -28,6 +28,10 @@ page = st.navigation(
     ]
 )
 greet()
-tell_browser()  # before the page, which may stop
-page.run()
+told = st.container()  # above the page, so that it stays where it is
+try:
+    page.run()
+finally:  # also of a page that stops
+    with told:
+        tell_browser()
 fetch_ahead()

@@ -102,10 +102,15 @@ def discard(place: Place) -> None:
     st.session_state.get(HELD, {}).pop(place, None)
 
 
-@lost_by_leaving
 def unsaved() -> list[Place]:
     """Where the visitor has changes that are not saved."""
     return [place for place, one in st.session_state.get(HELD, {}).items() if one.changed]
+
+
+@lost_by_leaving
+def unsaved_pairs() -> list[str]:
+    """The pairs of those places, for people."""
+    return list(dict.fromkeys(f"curves of {place.pair}" for place in unsaved()))
 
 
 def _receive(now: Held) -> None:

@@ -42,8 +42,9 @@ def _typed(place: str) -> bool:
 
 @lost_by_leaving
 def unsaved() -> list[str]:
-    """The places at which the visitor has typed something that is not saved."""
-    return [place for place in st.session_state.get("languages_seen", {}) if _typed(place)]
+    """What the visitor has typed and not saved: ``phone ZH of en``."""
+    places = [place.split("_") for place in st.session_state.get("languages_seen", {}) if _typed(place)]
+    return [f"{'alias' if kind == 'alias' else 'phone'} {' '.join(filter(None, row))} of {code}" for _, kind, code, *row in places]
 
 
 def picked(key: str, names: list[str], target: str) -> None:

@@ -66,10 +66,10 @@ def work() -> Work | None:
 
 
 @lost_by_leaving
-def unsaved() -> bool:
-    """Whether the language that the visitor is adding is kept nowhere yet."""
+def unsaved() -> list[str]:
+    """The language that the visitor is adding, if it is kept nowhere yet."""
     mine = work()
-    return mine is not None and not mine.kept
+    return [f"language {mine.draft.row['name']}"] if mine and not mine.kept else []
 
 
 def begin(draft: Draft) -> None:
