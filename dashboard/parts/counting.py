@@ -22,6 +22,7 @@ LARGEST = 32_000_000
 SUFFIXES = {".txt": ".txt", ".textgrid": ".TextGrid"}
 MODES = {EXACT: "exact: every line as it is said", FAST: "fast: every word once, for millions of words"}
 DONE = "coverage_done"
+NUMBER = st.column_config.NumberColumn(format="localized")
 
 
 def show_scans(languages: Sequence[str]) -> None:
@@ -30,19 +31,21 @@ def show_scans(languages: Sequence[str]) -> None:
     if done := st.session_state.pop(DONE, None):
         show_done(done)
     if not found:
-        st.info("Nothing is counted in these languages yet: what you see is of their example sentences. Count a text of your own below.")
+        below = " Count a text of your own below." if visitor().editor else ""
+        st.info(f"Nothing is counted in these languages yet: what you see is of their example sentences.{below}")
         return
     event = st.dataframe(
         pd.DataFrame([_row(corpus) for corpus in found]),
         hide_index=True,
         key="coverage_scans",
+        column_config=dict.fromkeys(("pairs", "lines", "documents"), NUMBER),
         on_select="rerun",
         selection_mode="single-cell",
     )
+    st.caption("Click a scan to see what was left out.")
     for corpus in found:
         if corpus.state != CURRENT:
             _offer_again(corpus)
-    st.caption("Click a scan to see what was left out.")
     for row, _ in event.selection.cells[:1]:
         st.write(f"**{found[row].title}**")
         show_findings(_told(found[row]).get("findings", []))
@@ -154,4 +157,4 @@ def show_findings(findings: Sequence[Mapping[str, Any]]) -> None:
         }
         for row in findings
     ]
-    st.dataframe(pd.DataFrame(rows), hide_index=True)
+    st.dataframe(pd.DataFrame(rows), hide_index=True, column_config={"count": NUMBER})
