@@ -163,6 +163,7 @@ def test_a_script_says_what_it_lacks_and_where(db) -> None:
 def test_a_script_that_can_not_be_read_is_answered_with_what_to_do(db, text, complaint) -> None:
     page = coverage_page(db, coverage_view="Your script", coverage_script=text)
     assert complaint in page.error[0].value
+    assert not page.get("progress")
 
 
 def test_a_scan_of_an_older_mapping_is_marked_and_can_be_counted_again(db, tmp_path) -> None:

@@ -273,6 +273,10 @@ def test_a_conflict_waits_for_a_choice_and_goes_to_the_workspace(db, workspace) 
     assert read_folder(workspace)["en/phones.tsv"]["N",]["common"] == "h"
 
 
-def test_a_folder_that_is_none_is_said(db, tmp_path) -> None:
-    page = languages_page(languages_view=COMPARE, languages_right_kind="Another folder", languages_right_folder=str(tmp_path / "nix"))
+def test_a_folder_that_is_none_is_said_and_the_other_sides_stay(db, tmp_path) -> None:
+    page = languages_page(languages_view=COMPARE, languages_left_kind="Another folder", languages_left_folder=str(tmp_path / "nix"))
     assert "no curated text there" in errors(page)[0]
+    assert [box.value for box in page.selectbox if box.label in ("Right", "What both were made from")] == [
+        "The workspace folder",
+        "Not known",
+    ]

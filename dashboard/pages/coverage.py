@@ -57,7 +57,7 @@ def ask() -> Chosen:
     db = database()
     names = {row["language"]: row["name"] for row in db.languages()}
     characters = {row["character"]: row["title"] or row["character"] for row in db.characters()}
-    first, second, third, fourth = st.columns([3, 4, 3, 2], vertical_alignment="bottom")
+    first, second, third, fourth = st.columns([3, 4, 3, 2])
     languages = first.multiselect(
         "Languages",
         list(names),
@@ -83,6 +83,7 @@ def ask() -> Chosen:
         key=keep("coverage_character", "robin" if "robin" in characters else next(iter(characters), None), among=characters),
         help="Whose curves: a character may have curves of its own.",
     )
+    fourth.space(36)  # As high as the labels of its neighbours, and half of what a field is higher than a switch.
     silence = fourth.toggle(
         "Silence", key=keep("coverage_silence", True), help="Pairs at pauses, such as _-bmp; the paper leaves them out."
     )

@@ -36,6 +36,12 @@ from lipdb.words import counted
 NOW, PAST, WORKSPACE, FOLDER, ZIP, NONE = (
     "The database now", "The database at a revision", "The workspace folder", "Another folder", "A zip that I upload", "Not known",
 )  # fmt: skip
+BASE = "base"
+SIDES = (
+    (LEFT, "Left", [NOW, PAST, WORKSPACE, FOLDER, ZIP]),
+    (RIGHT, "Right", [WORKSPACE, PAST, NOW, FOLDER, ZIP]),
+    (BASE, "What both were made from", [NONE, PAST, NOW, WORKSPACE, FOLDER, ZIP]),
+)
 EVERYTHING = "everything"
 LARGEST = 16_000_000
 MOST_ROWS = 2000
@@ -59,14 +65,15 @@ def show_compare() -> None:
     st.caption("Two folders, a folder or a zip against the database, or two revisions: row by row, with a choice for each.")
     if done := st.session_state.pop("languages_merged", ""):
         st.success(done, icon=":material/check_circle:")
-    columns = st.columns(3)
+    versions: dict[str, Records | None] = {}
+    for column, (side, label, kinds) in zip(st.columns(3), SIDES, strict=True):
+        with column, told():
+            versions[side] = _version(column, label, side, kinds)
+    left, right = versions.get(LEFT), versions.get(RIGHT)
+    if left is None or right is None or BASE not in versions:
+        return
     with told():
-        left = _version(columns[0], "Left", LEFT, [NOW, PAST, WORKSPACE, FOLDER, ZIP])
-        right = _version(columns[1], "Right", RIGHT, [WORKSPACE, PAST, NOW, FOLDER, ZIP])
-        base = _version(columns[2], "What both were made from", "base", [NONE, PAST, NOW, WORKSPACE, FOLDER, ZIP])
-        if left is None or right is None:
-            return
-        _compare(left, right, base)
+        _compare(left, right, versions[BASE])
 
 
 def _version(column: st.delta_generator.DeltaGenerator, label: str, side: str, kinds: list[str]) -> Records | None:

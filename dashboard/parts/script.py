@@ -60,9 +60,11 @@ def _read(text: str, language: str) -> Script:
         def told(_: str, done: int, total: int) -> None:
             bar.progress(done / total, f"Reading: {done:,} of {total:,} lines")
 
-        with reported(told):
-            script = read_script(text, database().voice(language), database().phoneset(language))
-        bar.empty()
+        try:
+            with reported(told):
+                script = read_script(text, database().voice(language), database().phoneset(language))
+        finally:
+            bar.empty()
         st.session_state[READ] = key, script
     found: Script = st.session_state[READ][1]
     return found
