@@ -1,8 +1,9 @@
-"""Leaving with something unsaved, in a real browser: it asks first."""
+"""Leaving with something unsaved, in a real browser: it asks first, and says what a restart of the server took away."""
 
+import shutil
 from contextlib import contextmanager
 
-from browser import eventually, fill, press, settled
+from browser import eventually, fill, free_port, press, serving, settled, tab
 
 
 def opened(app, page, path: str) -> None:
@@ -113,3 +114,30 @@ def test_a_language_is_asked_about_until_it_is_thrown_away(app, page) -> None:
     page.get_by_role("button", name="Propose the phones").wait_for()
     settled(page)
     assert not asked(page)
+
+
+def test_who_had_something_unsaved_is_told_what_a_restart_took_and_keeps_what_the_browser_still_has(chromium, as_shipped, tmp_path) -> None:
+    shutil.copy(as_shipped, tmp_path)
+    port = free_port()
+    with tab(chromium) as page:
+        with serving(tmp_path, port=port) as app:
+            opened(app, page, "languages")
+            fill(page, "Example word", "vision")
+            page.get_by_text("Not saved yet; it is heard").wait_for()
+            page.get_by_role("link", name="Curves").click()
+            settled(page)
+            key = page.locator('.keys .lane[data-pose="W"] .key').nth(1)
+            key.focus()
+            key.press("ArrowUp")
+            page.get_by_text("Not saved yet:").wait_for()
+            settled(page)
+        app.process.wait()
+        with serving(tmp_path, port=port):
+            told = page.get_by_role("alert").filter(has_text="What was not saved is gone")
+            told.wait_for()
+            assert "curves of l-ow" in told.inner_text()
+            told.get_by_role("button", name="Close").click()
+            told.wait_for(state="hidden")
+            settled(page)
+            fill(page, "Your name", "anna")
+            assert told.count() == 0
