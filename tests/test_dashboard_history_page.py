@@ -109,3 +109,11 @@ def test_of_a_large_revision_those_rows_are_shown_that_were_looked_for(db) -> No
     assert len(rows) == len(db.records["en/sentences.tsv"]) == shown.dataframe[0].value["rows"][0]
     assert all(row.startswith("en/sentences.tsv ") for row in rows)
     assert any("rows are as chosen above; only these are shown" in text for text in texts(shown))
+
+
+def test_names_and_notes_are_shown_as_they_were_typed(db) -> None:
+    with db.edit(author="**carl**", note="<b>[low](x)</b> $1$") as edit:
+        edit.put(TABLE, {**CURVE, "keys": "0:0 0.5:0.5 1:0"})
+    shown = page("history")
+    assert shown.subheader[0].value == r"Revision 4: \<b\>\[low\](x)\</b\> \$1\$"
+    assert any(caption.value.startswith(r"\*\*carl\*\*, ") for caption in shown.caption)

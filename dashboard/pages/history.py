@@ -6,7 +6,7 @@ import streamlit as st
 from parts.compare import draw_versions
 from parts.lines import changes_of, state
 from parts.pairs import open_pair
-from parts.session import database, shown_errors, undo, visitor
+from parts.session import as_typed, database, shown_errors, undo, visitor
 
 from lipdb.curves.changed import ChangedPair, changed_pairs
 from lipdb.errors import InputError, LipdbError
@@ -156,8 +156,8 @@ with shown_errors():
         st.info("No change is like this. Choose “any” where you chose something, and empty what you typed.")
         st.stop()
     one = choose(revisions)
-    st.subheader(f"Revision {one.number}: {one.note or 'no note'}")
-    st.caption(f"{one.author}, {one.time.replace('T', ' at ').rstrip('Z')} UTC")
+    st.subheader(f"Revision {one.number}: {as_typed(one.note) or 'no note'}")
+    st.caption(f"{as_typed(one.author)}, {one.time.replace('T', ' at ').rstrip('Z')} UTC")
     take_back(one)
     every = changes_of(database(), one.number)
     changes = changes_named(wanted, every)

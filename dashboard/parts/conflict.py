@@ -8,7 +8,7 @@ from typing import Literal
 
 import streamlit as st
 from parts.lines import state
-from parts.session import Edited, save, shown_errors
+from parts.session import Edited, as_typed, save, shown_errors
 from parts.versions import curves_chart
 
 from lipdb.curated.tsv import Key, Row
@@ -62,7 +62,7 @@ def _ask() -> None:
     error = asked.error
     several = len(error.conflicts) > 1
     what = f"{counted(len(error.conflicts), 'row')} that you changed too, in revision {error.revision}"
-    st.write(f"{error.author} changed {what}. Nothing of yours is saved yet.")
+    st.write(f"{as_typed(error.author)} changed {what}. Nothing of yours is saved yet.")
     chosen = {}
     for number, versions in enumerate(error.conflicts):
         _both(versions, asked.seen)

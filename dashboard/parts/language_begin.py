@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import streamlit as st
 from parts.language_work import WORK, Work, begin, progress, told
-from parts.session import database, in_words
+from parts.session import as_typed, database, in_words
 
 from lipdb.curated.schema import CODE, USER_SOURCE
 from lipdb.errors import InputError
@@ -126,7 +126,7 @@ def _under_way(mine: Work) -> None:
     draft = mine.draft
     voice = "no voice, its text is read in silence" if draft.silent else f"voice {draft.row['voice']}"
     st.write(
-        f"You are adding **{draft.row['name']}** (`{draft.code}`; {voice}): {counted(len(draft.entries), 'phone')}, "
+        f"You are adding **{as_typed(draft.row['name'])}** (`{draft.code}`; {voice}): {counted(len(draft.entries), 'phone')}, "
         f"{counted(len(draft.sentences), 'sample sentence')}."
     )
     for note in draft.notes:

@@ -121,6 +121,11 @@ def in_words(told: LipdbError | str) -> str:
     return re.sub(r"(?<!\S)--(?=[a-z])(?!db\b)", "", str(told)).removeprefix("text: ")
 
 
+def as_typed(text: str) -> str:
+    """*text* of a visitor for where Streamlit reads Markdown: it is shown as it was typed."""
+    return re.sub(r"([\\`*_\[\]<>~|$:#&])", r"\\\1", text)
+
+
 @contextmanager
 def shown_errors() -> Iterator[None]:
     """Show an error that a visitor can mend as a message, and stop the page there."""
