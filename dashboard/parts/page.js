@@ -13,4 +13,16 @@ if (!window.lipdbListens) {
   window.addEventListener("beforeunload", (event) => {
     if (window.lipdbUnsaved?.unsaved.length) event.preventDefault();
   });
+
+  // Streamlit takes nothing that is longer than a field may be, without a word.
+  document.addEventListener("input", ({ target: field }) => {
+    if (!field.closest?.('[data-testid="stTextInput"], [data-testid="stTextArea"]')) return;
+    const { value } = field;
+    field.setCustomValidity("");
+    setTimeout(() => {
+      if (field.value.length >= value.length) return;
+      field.setCustomValidity(`${value.length} letters are more than this field takes.`);
+      field.reportValidity();
+    });
+  }, true);
 }
