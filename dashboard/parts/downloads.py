@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from lipdb import plugins
 from lipdb.errors import LipdbError
@@ -42,7 +43,7 @@ def download(performance: Performance, *, key: str) -> None:
     left, right = st.columns([2, 3], vertical_alignment="bottom")
     suffix = left.selectbox("Format", suffixes, index=suffixes.index(".csv"), format_func=_title, key=f"{key}_format")
     try:
-        made = _film(performance, suffix, key) if suffix in FILMS else content(performance, suffix)
+        made = _film(performance, suffix, key, right) if suffix in FILMS else content(performance, suffix)
     except LipdbError as error:
         right.error(str(error))
         return
@@ -54,8 +55,8 @@ def _title(suffix: str) -> str:
     return f"{suffix}  ({TITLES[suffix]})" if suffix in TITLES else suffix
 
 
-def _film(performance: Performance, suffix: str, key: str) -> bytes | None:
-    """The film, if it has been made; a button that makes it, otherwise."""
+def _film(performance: Performance, suffix: str, key: str, where: DeltaGenerator) -> bytes | None:
+    """The film, if it has been made; a button that makes it, otherwise, at the place *where* the film will stand."""
     place = f"{key}_film"
     of, kind, made = st.session_state.get(place, (None, "", b""))
     if of is performance and kind == suffix:
@@ -63,7 +64,7 @@ def _film(performance: Performance, suffix: str, key: str) -> bytes | None:
     asked = f"{key}_draw_asked"
     if not st.session_state.pop(asked, False):
         told = "Every frame is drawn; that takes some seconds."
-        st.button(f"Draw {suffix}", key=f"{key}_draw", help=told, on_click=st.session_state.update, args=({asked: True},))
+        where.button(f"Draw {suffix}", key=f"{key}_draw", help=told, on_click=st.session_state.update, args=({asked: True},))
         return None
     bar = st.progress(0.0, "Drawing…")
     with reported(lambda what, done, total: bar.progress(done / total, f"{what.capitalize()}: {done} of {total} frames")):
