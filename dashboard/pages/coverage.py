@@ -83,7 +83,7 @@ def ask() -> Chosen:
         key=keep("coverage_character", "robin" if "robin" in characters else next(iter(characters), None), among=characters),
         help="Whose curves: a character may have curves of its own.",
     )
-    fourth.space(36)  # As high as the labels of its neighbours, and half of what a field is higher than a switch.
+    fourth.space(20)  # With the gap below it: a label's height, and half of what a field is higher than a switch.
     silence = fourth.toggle(
         "Silence", key=keep("coverage_silence", True), help="Pairs at pauses, such as _-bmp; the paper leaves them out."
     )

@@ -205,8 +205,9 @@ def _rows(mine: Merging) -> None:
         height=min(38 + 35 * len(frame), 520),
         on_change=taken,
         column_config={
-            "take": st.column_config.SelectboxColumn("take", options=[LEFT, RIGHT], required=True, width=80),
-            "what": st.column_config.TextColumn(width=80),
+            # What is pinned keeps its width: the room that is left is for what differs.
+            "take": st.column_config.SelectboxColumn("take", options=[LEFT, RIGHT], required=True, width=80, pinned=True),
+            "what": st.column_config.TextColumn(width=80, pinned=True),
             "table": st.column_config.TextColumn(width=130),
             "row": st.column_config.TextColumn(width=100),
             LEFT: st.column_config.TextColumn(width=215),

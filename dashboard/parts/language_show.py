@@ -107,7 +107,7 @@ def _edit_phone(beside: st.delta_generator.DeltaGenerator, code: str, row: Row) 
         forget(place)
         st.rerun()
     if changed:
-        st.caption(":material/edit: Not saved yet; it is heard as you changed it.")
+        st.caption(":material/edit: Not saved yet" + ("; it is heard as you changed it." if common else "."))
     trial = _tried(code, edited) if changed and common else db
     if words := (edited["example"] or row["example"]).replace(",", " ").split():
         hear(trial, f"{db.store.revision} {edited}", words[0], code, key="languages_hear")
