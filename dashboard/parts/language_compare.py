@@ -12,7 +12,7 @@ import streamlit as st
 from parts.language_work import told
 from parts.lines import state
 from parts.reach import only_from_here
-from parts.session import database, visitor, writable
+from parts.session import as_typed, database, visitor, writable
 
 from lipdb.curated.tsv import Records
 from lipdb.curated.zipped import read_zip
@@ -165,8 +165,8 @@ def _conflicts(mine: Merging) -> None:
         with st.container(border=True):
             shown = one.to_row()
             first, second, third = st.columns([2, 5, 2], vertical_alignment="center")
-            first.write(f"**{' '.join(one.key)}**  \n{one.path}")
-            second.write(f"Left: {shown[LEFT]}  \nRight: {shown[RIGHT]}")
+            first.write(f"**{as_typed(' '.join(one.key))}**  \n{as_typed(one.path)}")
+            second.write(f"Left: {as_typed(str(shown[LEFT]))}  \nRight: {as_typed(str(shown[RIGHT]))}")
             key = f"languages_conflict_{mine.version}_{number}"
             side = third.segmented_control(
                 "Take", [LEFT, RIGHT], default=mine.choices.get(one.place), key=key, label_visibility="collapsed"
