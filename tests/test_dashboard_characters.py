@@ -175,5 +175,9 @@ def test_on_a_dark_page_dark_letters_stand_on_what_is_filled_and_light_ones_else
         assert letters("Save") != dark  # nothing is to be saved, so it is not filled
         page.get_by_test_id("stButtonGroup").get_by_text("Overrides").click()
         page.get_by_role("button", name="Reset all").click()
-        page.get_by_role("button", name="Reset all of them").wait_for()
+        filled = page.get_by_role("button", name="Reset all of them")
+        filled.wait_for()
         assert letters("Reset all of them") == dark
+        filled.hover()
+        lighter = "button => getComputedStyle(button).backgroundColor.match(/\\d+/g).every((part, k) => +part > [60, 153, 213][k])"
+        eventually(page, lambda: filled.evaluate(lighter), "the button is not lighter under the mouse")
