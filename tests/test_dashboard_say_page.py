@@ -10,6 +10,7 @@ import wave
 import page_cases
 import pytest
 from page_cases import behind_pages
+from streamlit.dataframe_util import convert_arrow_bytes_to_pandas_df
 
 from lipdb.engine.explain import STAGES
 
@@ -93,6 +94,20 @@ def test_every_stage_that_an_instant_can_name_can_be_seen(page) -> None:
     assert set(STAGES) <= set(stages)
     data = json.dumps(json.loads(page.get("vega_lite_chart")[0].proto.spec)["layer"][-1]["encoding"]["color"])
     assert all(f'"{stage}"' in data for stage in STAGES)
+
+
+def test_names_of_phones_do_not_run_into_each_other_in_the_chart_of_a_long_line(page) -> None:
+    page.text_input[0].set_value("She sells sea shells by the sea shore, and nobody ever asks her why on earth she does.").run()
+    page.session_state["say_tab"] = "Stages of the engine"
+    page.run()
+    chart = page.get("vega_lite_chart")[0].proto
+    _, text, lines = json.loads(chart.spec)["layer"]
+    (data,) = (one.data.data for one in chart.datasets if one.name == text["data"]["name"])
+    names = convert_arrow_bytes_to_pandas_df(data).sort_values("seconds")
+    first, last = lines["encoding"]["x"]["scale"]["domain"]
+    half = names.phone.str.len() * 3 / 930 * (last - first)  # a letter has 6 pixels; on a window of 1280 the plot has 930
+    assert len(names) > 10
+    assert ((names.seconds + half).to_numpy()[:-1] <= (names.seconds - half).to_numpy()[1:]).all()
 
 
 def test_the_stages_of_all_poses_stand_in_one_plot_that_keeps_to_the_width_of_the_page(page) -> None:

@@ -8,7 +8,7 @@ import altair as alt
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from parts.looks import blue, ink
+from parts.looks import dark, ink
 
 if TYPE_CHECKING:
     from lipdb.engine import Stages
@@ -25,8 +25,12 @@ STAGE_COLOURS = {
     "splined": "#cc79a7",
     "final": "#0072b2",
 }
+FINAL_ON_DARK = "#f0e442"
+"""There a blue that is light enough to be seen can't be told from that of *stitched*."""
 ROOM = 1.15
 """What a pose has of the height, in weights: 1 and the names of the phones."""
+LETTER = 0.007
+"""What a letter takes of the width: on a window of 1280 pixels."""
 STRAIGHT = 1e-4
 """A point that is nearer than this to the line between its neighbours is not sent to the browser."""
 
@@ -39,7 +43,7 @@ def stages_chart(
     Poses stand over each other in one plot, each on a floor of its own: plots in a column would not keep to the page's width.
     """
     order = [stage for stage in STAGE_COLOURS if stage in shown]
-    colours = [blue() if stage == "final" else STAGE_COLOURS[stage] for stage in order]
+    colours = [FINAL_ON_DARK if stage == "final" and dark() else STAGE_COLOURS[stage] for stage in order]
     floors = {pose: ROOM * k for k, pose in enumerate(reversed(poses))}
     data = pd.concat([_stage(made, pose, stage, window).assign(pose=pose) for pose in poses for stage in order], ignore_index=True)
     data["height"] = data.weight + data.pose.map(floors)
@@ -79,7 +83,7 @@ def _phones(schedule: Schedule, window: tuple[float, float]) -> list[alt.Chart]:
     phones = pd.DataFrame({"start": seconds[:-1], "seconds": (seconds[:-1] + seconds[1:]) / 2, "wide": np.diff(seconds), "phone": names})
     seen = phones[(phones.start < window[1]) & (phones.start >= window[0])]
     borders = alt.Chart(seen).mark_rule(opacity=0.2, color=ink()).encode(x=alt.X("start:Q", title="seconds"))
-    wide = seen[seen.wide > 0.008 * (window[1] - window[0])]
+    wide = seen[seen.wide > LETTER * seen.phone.str.len() * (window[1] - window[0])]
     text = alt.Chart(wide).mark_text(baseline="top", dy=2, fontSize=11, color=ink(), opacity=0.7)
     return [borders, text.encode(x="seconds:Q", y=alt.value(0), text="phone:N")]
 
