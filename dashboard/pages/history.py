@@ -137,8 +137,8 @@ def open_in_curves(pair: ChangedPair) -> None:
     open_pair(pair.left, pair.right, **{name: value for name, value in place.items() if value})
 
 
-def show_rows(changes: list[Change]) -> None:
-    """Every row before and after."""
+def show_rows(one: Revision, changes: list[Change]) -> None:
+    """Every row of *changes* before and after."""
     if len(changes) > MOST_ROWS:
         st.caption(f"The first {MOST_ROWS:,} of {len(changes):,} rows; choose a table or a pair above to see others.")
     kinds = {(True, False): "added", (False, True): "removed", (False, False): "changed"}
@@ -146,7 +146,9 @@ def show_rows(changes: list[Change]) -> None:
         {"row": f"{change.path} {' '.join(change.key)}", "": kinds[change.before is None, change.after is None], **change.to_row()}
         for change in changes[:MOST_ROWS]
     ]
-    st.dataframe([{name: row[name] for name in ("row", "", "before", "after")} for row in rows], hide_index=True)
+    # A table in the place of another revision's would keep its widths; in a container of another key it is a new one.
+    with st.container(key=f"history_rows_{one.number}"):
+        st.dataframe([{name: row[name] for name in ("row", "", "before", "after")} for row in rows], hide_index=True)
 
 
 with shown_errors():
@@ -169,6 +171,6 @@ with shown_errors():
         with as_curves:
             show_curves(one, pairs)
         with as_rows:
-            show_rows(changes)
+            show_rows(one, changes)
     else:
-        show_rows(changes)
+        show_rows(one, changes)

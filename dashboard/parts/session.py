@@ -101,7 +101,7 @@ def greet() -> None:
         st.sidebar.text(f"{who.name or 'No address'} ({role})")  # as it is: Markdown would make a link of it
         st.sidebar.button("Sign out", on_click=st.logout)
         if not who.reader:
-            st.error(f"{who.name or 'You'} may not look at this. Ask to be let in, or sign out and in again as somebody else.")
+            st.error("You may not look at this. Ask to be let in, or sign out and in again as somebody else.")
             st.stop()
     else:
         st.title("lipdb")
