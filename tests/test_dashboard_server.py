@@ -19,6 +19,14 @@ def folder(as_shipped, tmp_path):
     return tmp_path
 
 
+@pytest.fixture(autouse=True)
+def heard():
+    """SIGHUP is heard by what is started here, under nohup too: who ignores a signal starts processes that ignore it."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, before)
+
+
 def soon(holds, what: str):
     """What *holds* gives, once that is true."""
     end = time.monotonic() + PATIENCE / 1000
