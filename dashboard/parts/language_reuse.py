@@ -86,7 +86,6 @@ def _new_pairs(code: str, found: Reuse) -> None:
         hide_index=True,
         on_select="rerun",
         selection_mode="single-row",
-        height=300,
         column_config={"share of the text": st.column_config.NumberColumn(format="%.2f %%")},
     )
     if event.selection.rows:
