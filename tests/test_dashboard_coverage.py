@@ -79,6 +79,17 @@ def test_a_click_into_the_list_opens_what_is_needed_most_and_the_list_comes_back
     assert pairs[1] != "ah-d"
 
 
+def test_a_click_right_after_a_second_language_is_not_lost(coverage) -> None:
+    languages = coverage.get_by_role("combobox", name="Languages")
+    languages.click()
+    languages.press_sequentially("Mandarin")
+    coverage.get_by_role("option", name="Mandarin").click()
+    coverage.keyboard.press("Escape")
+    settled(coverage)
+    view(coverage, "To do")
+    coverage.get_by_text("Pairs to draw").wait_for()
+
+
 def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> None:
     view(coverage, "Corpora")
     file = {"name": "../My story.txt", "mimeType": "text/plain", "buffer": STORY.encode()}
