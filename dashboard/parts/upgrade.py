@@ -25,7 +25,8 @@ _HTML = '<div class="upgrade" role="alert" hidden><span></span><button type="but
 _STYLE = """
 .upgrade { background: #e69f00; color: #000; border-radius: 0.5rem; padding: 0.75rem; font-size: 0.9rem; }
 .upgrade[hidden] { display: none; }
-.upgrade button { font: inherit; cursor: pointer; }
+.upgrade button { display: block; margin-top: 0.5rem; padding: 0.1rem 0.75rem; border: 1px solid; border-radius: 0.5rem; }
+.upgrade button { font: inherit; background: none; color: inherit; cursor: pointer; }
 """
 
 
