@@ -101,6 +101,7 @@ def test_a_tab_that_is_older_than_the_server_says_so(tmp_path, page) -> None:
     with serving(tmp_path, port=port) as app:
         page.goto(f"{app.url}/history")
         page.get_by_text("Revision 1:").wait_for()
+        settled(page)  # nothing is under way that would be asked for again
         assert banner.count() == 0
     newer = tmp_path / "newer" / "lipdb-99.1.dist-info"
     newer.mkdir(parents=True)

@@ -10,15 +10,25 @@ import streamlit as st
 RUNNING = version("lipdb")
 """The lipdb that this server runs."""
 
-# A tab outlives the server that it was loaded from: it remembers in the browser which lipdb that was.
+# A tab outlives the server that it was loaded from: it remembers in the browser which lipdb that was. Streamlit asks nothing of a
+# server that is back until somebody clicks; so this does.
 _SCRIPT = """
-export default ({ data, parentElement }) => {
+export default ({ data, parentElement, setTriggerValue }) => {
   window.lipdbLoaded ??= data.version;
   const root = parentElement.querySelector(".upgrade");
   root.hidden = window.lipdbLoaded === data.version;
   root.querySelector("span").textContent =
     `This page was loaded from lipdb ${window.lipdbLoaded}; the dashboard runs ${data.version} now. Reload it. `;
   root.querySelector("button").onclick = () => window.location.reload();
+  const app = document.querySelector('[data-testid="stApp"]');
+  let away = false;
+  const connection = new MutationObserver(() => {
+    const there = app.dataset.testConnectionState === "CONNECTED";
+    if (there && away) setTriggerValue("back", true);
+    away = !there;
+  });
+  connection.observe(app, { attributeFilter: ["data-test-connection-state"] });
+  return () => connection.disconnect();
 };
 """
 _HTML = '<div class="upgrade" role="alert" hidden><span></span><button type="button">Reload</button></div>'
@@ -45,4 +55,4 @@ def warn_of_upgrade() -> None:
             icon=":material/upgrade:",
         )
     with st.sidebar:
-        _component()(data={"version": RUNNING}, key="upgrade")
+        _component()(data={"version": RUNNING}, key="upgrade", on_back_change=lambda: None)
