@@ -152,15 +152,20 @@ def settled(page: Any) -> None:
     eventually(page, lambda: page.evaluate(ended), "the page has run to its end")
 
 
-def eventually(page: Any, holds: Callable[[], Any], what: str) -> Any:
+def soon(holds: Callable[[], Any], what: str, *, wait: Callable[[], object] = lambda: time.sleep(0.1)) -> Any:
     """What *holds* gives, once that is true."""
-    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
     end = time.monotonic() + PATIENCE / 1000
     while time.monotonic() < end:
         if found := holds():
             return found
-        page.wait_for_timeout(50)
+        wait()
     raise AssertionError(f"never: {what}")
+
+
+def eventually(page: Any, holds: Callable[[], Any], what: str) -> Any:
+    """What *holds* gives, once that is true, while *page* goes on."""
+    # Not wait_for_function: it polls with frames of the screen, which are rare where the processor draws.
+    return soon(holds, what, wait=lambda: page.wait_for_timeout(50))
 
 
 def click_until(page: Any, target: Any, happened: Callable[[], Any], *, x: float, y: float) -> Any:

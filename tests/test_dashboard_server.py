@@ -7,10 +7,9 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 
 import pytest
-from browser import PATIENCE, free_port, serving
+from browser import PATIENCE, free_port, serving, soon
 
 
 @pytest.fixture
@@ -25,16 +24,6 @@ def heard():
     before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
     yield
     signal.signal(signal.SIGHUP, before)
-
-
-def soon(holds, what: str):
-    """What *holds* gives, once that is true."""
-    end = time.monotonic() + PATIENCE / 1000
-    while time.monotonic() < end:
-        if found := holds():
-            return found
-        time.sleep(0.1)
-    raise AssertionError(f"never: {what}")
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129), (signal.SIGKILL, -9)])
