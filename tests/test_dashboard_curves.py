@@ -249,3 +249,42 @@ def test_the_crab_alone(app, curves, tmp_path) -> None:
     curves.get_by_text("Saved l-ow: mouth_open to character:crab").wait_for()
     assert said(app, tmp_path) == human
     assert said(app, tmp_path, "crab") != crab
+
+
+def test_an_editor_whose_data_was_overtaken_on_its_way_keeps_what_can_be_undone(curves) -> None:
+    """Streamlit ends a call of a component that newer data overtook: by then the element shows the newer."""
+    sent, back, left = curves.evaluate(
+        """async () => {
+            const { default: mount } = await import(document.querySelector('script[type="module"][src*="keys"]').src);
+            const host = document.body.appendChild(document.createElement("div"));
+            host.innerHTML = '<div class="keys"></div>';
+            const values = [];
+            const lane = { pose: "A", keys: [[0.2, 0], [0.5, 1], [0.8, 0]], below: [], from: "common", note: "", drawn: [] };
+            const call = (drawn) => mount({
+                parentElement: host,
+                data: { id: "one", lanes: [{ ...lane, drawn }], locked: false, silent: [false, false] },
+                setStateValue: (name, value) => values.push(value.curves.A),
+            });
+            const pause = () => new Promise((done) => setTimeout(done, 500));
+            const press = () => document.dispatchEvent(new KeyboardEvent("keydown", { key: "z", ctrlKey: true }));
+            const overtaken = call([]);
+            host.querySelector(".reset").click();
+            const last = call([[0, 0], [1, 0]]);
+            overtaken();
+            await pause();
+            const sent = values.length && values.at(-1);
+            press();
+            await pause();
+            const back = values.at(-1);
+            host.querySelector(".reset").click();
+            host.remove();
+            last();
+            const before = values.length;
+            press();
+            await pause();
+            return [sent, back, values.length - before];
+        }"""
+    )
+    assert sent is None  # what was changed before is sent nevertheless
+    assert back == [[0.2, 0], [0.5, 1], [0.8, 0]]  # and can be taken back
+    assert left == 0  # an editor that has left the page hears nothing

@@ -3,6 +3,7 @@
 import { copy, normalised, same, type Curves, type KeysData } from "./curve";
 import { icon } from "./icons";
 import { LaneView, PAD } from "./lane";
+import { mounted } from "./mount";
 
 interface Component {
   data: KeysData;
@@ -228,20 +229,4 @@ class Editor {
   }
 }
 
-const EDITORS = new WeakMap<object, Editor>();
-
-export default function (component: Component): () => void {
-  const { parentElement } = component;
-  let editor = EDITORS.get(parentElement);
-  if (!editor) {
-    const root = parentElement.querySelector<HTMLElement>(".keys");
-    if (!root) throw new Error("the page has no element of class keys");
-    editor = new Editor(root);
-    EDITORS.set(parentElement, editor);
-  }
-  editor.update(component);
-  return () => {
-    EDITORS.get(parentElement)?.dispose();
-    EDITORS.delete(parentElement);
-  };
-}
+export default mounted("keys", (root) => new Editor(root));

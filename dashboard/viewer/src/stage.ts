@@ -6,6 +6,7 @@ import { loaded, Track, type Loaded, type StageData } from "./data";
 import { Faces } from "./faces";
 import { bytes } from "./files";
 import { Lanes } from "./lanes";
+import { mounted } from "./mount";
 
 interface Component {
   data: StageData;
@@ -220,21 +221,8 @@ export class Stage {
   }
 }
 
-const STAGES = new WeakMap<object, Stage>();
-
-export default function (component: Component): () => void {
-  const { parentElement } = component;
-  let stage = STAGES.get(parentElement);
-  if (!stage) {
-    const root = parentElement.querySelector<HTMLElement>(".stage");
-    if (!root) throw new Error("the page has no element of class stage");
-    stage = new Stage(root);
-    STAGES.set(parentElement, stage);
-    (root as HTMLElement & { lipdb?: Stage }).lipdb = stage;
-  }
-  stage.update(component);
-  return () => {
-    STAGES.get(parentElement)?.dispose();
-    STAGES.delete(parentElement);
-  };
-}
+export default mounted("stage", (root) => {
+  const stage = new Stage(root);
+  (root as HTMLElement & { lipdb?: Stage }).lipdb = stage;
+  return stage;
+});
