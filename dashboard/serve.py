@@ -4,6 +4,7 @@ Streamlit takes a folder called pages/ for the pages of an app of its old kind, 
 new server by a link to a page would get that page alone, without what app.py puts around it: navigation, name, sign-in.
 """
 
+import gc
 import os
 import signal
 import sys
@@ -18,11 +19,11 @@ from parts.looks import BLUE, INK
 from streamlit.runtime.pages_manager import PagesManager
 from streamlit.web.cli import main
 
-THEME = {
+OPTIONS = {
     f"theme.{theme}.{name}": colours[theme]
     for name, colours in (("primaryColor", BLUE), ("textColor", INK), ("codeTextColor", INK))
     for theme in colours
-}
+} | {"runner.magicEnabled": "false"}  # pages say what they show; to look for what they leave unsaid costs their first visit
 SLOW_TO_IMPORT = ("PIL.Image", "pandas", "pyarrow"), ("altair", "streamlit.dataframe_util")
 """What the front page waits for, and what the others wait for."""
 FIRST_FACE = 5
@@ -50,8 +51,16 @@ def prepare() -> None:
         preview([db.animate(db.say(EXAMPLES[DEFAULT_LANGUAGE]))], lambda _content, _media: "")
     for name in others:
         import_module(name)
+    keep_for_good()
     sleep(FIRST_FACE)
     prepare_others()
+    keep_for_good()
+
+
+def keep_for_good() -> None:
+    """Take what is ready out of the search for garbage, which Streamlit begins after every run: a quarter of a second went to it."""
+    gc.collect()
+    gc.freeze()
 
 
 def prepare_others() -> None:
@@ -64,7 +73,7 @@ def prepare_others() -> None:
         import_module(f"parts.{module.name}")
     from parts.corpora import sentences
     from parts.lines import changes_of
-    from parts.pairs import Choice, examples, heard
+    from parts.pairs import Choice, every_pair, examples, heard
     from parts.session import shared
 
     from lipdb.database import DEFAULT_CHARACTER, DEFAULT_LANGUAGE
@@ -73,6 +82,7 @@ def prepare_others() -> None:
     with suppress(LipdbError):
         examples(shared(), DEFAULT_LANGUAGE, DEFAULT_CHARACTER)
         sentences(shared(), DEFAULT_LANGUAGE)
+        every_pair(DEFAULT_LANGUAGE, DEFAULT_CHARACTER, shared().store.revision)
         changes_of(shared(), 1)
         first = Choice()
         heard(first.left, first.right, language=first.language, character=first.character)
@@ -96,4 +106,4 @@ if __name__ == "__main__":
     PagesManager.uses_pages_directory = False
     sys.modules.setdefault(UNUSED, None)  # type: ignore[arg-type]
     Thread(target=prepare, daemon=True).start()
-    sys.exit(main([*sys.argv[1:], *(f"--{name}={value}" for name, value in THEME.items())]))
+    sys.exit(main([*sys.argv[1:], *(f"--{name}={value}" for name, value in OPTIONS.items())]))

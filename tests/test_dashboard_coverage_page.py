@@ -77,9 +77,9 @@ def test_the_matrix_shows_the_newest_scan_and_what_its_pairs_use(db, tmp_path) -
     page = coverage_page(db)
     assert page.multiselect[1].value == [f"en {one.id}"]
     assert metrics(page) == {"Pairs that occur": "4 of 483", "Covered by hand": "25.0 %"}
-    assert page.dataframe[0].value.to_dict("records") == [
-        {"origin": "authored", "pairs": 1, "percent": 25.0}, {"origin": "generated", "pairs": 3, "percent": 75.0},
-    ]  # fmt: skip
+    sums = next(one.value for one in page.markdown if one.value.startswith("| origin "))
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in sums.replace("\N{NO-BREAK SPACE}", " ").splitlines()]
+    assert cells[2:] == [["authored", "1", "25.0 %"], ["generated", "3", "75.0 %"]]
     page.multiselect[1].set_value([f"en {one.id}", "en example sentences"]).run()
     assert int(metrics(shown(page))["Pairs that occur"].split(" of ")[0]) > 300
 

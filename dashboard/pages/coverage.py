@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import pandas as pd
 import streamlit as st
@@ -14,7 +13,7 @@ from parts.pairs import every_pair, open_pair
 from parts.pairs_chart import COLOURINGS, OFTEN, figure_two, heat_map, table_of, work_chart
 from parts.pairs_table import keep, one_of, pairs_table
 from parts.script import ask_script
-from parts.session import database, shown_errors
+from parts.session import as_typed, database, shown_errors
 
 from lipdb.coverage.reports.frequency import Frequency
 from lipdb.coverage.reports.gaps import MINUTES, gaps, outlook
@@ -120,7 +119,10 @@ def show_matrix(now: Chosen) -> None:
     kinds = {key[0]: row["kind"] for key, row in database().records["common.tsv"].items()}
     order = sorted({use.left for use in now.uses}, key=lambda phone: (phone != SILENCE, kinds.get(phone) != "vowel", phone))
     chart = heat_map(table_of(now.uses, now.frequency, now.by_language), colouring, order)
-    event = left.altair_chart(chart, key="coverage_matrix", on_select="rerun", selection_mode="pair", width="stretch")
+    event = left.altair_chart(
+        chart, key="coverage_matrix", on_select="rerun", selection_mode="pair", width="stretch",
+        alt=f"All pairs of phones as a matrix, whose colour shows: {colouring.lower()}. The view Frequency lists the pairs.",
+    )  # fmt: skip
     never = "empty" if colouring == OFTEN else "faint"
     left.caption(f"Click a pair to open it in Curves. Vowels come first. Pairs that the chosen text does not have are {never}.")
     for cell in event.selection.get("pair") or []:
@@ -139,8 +141,9 @@ def show_sums(now: Chosen) -> None:
         "Covered by hand", f"{outlook(now.needed).covered:.1f} %", help="The part of running text whose curves are authored or fitted."
     )
     for what, rows in by_curve(now.needed).items():
-        config: dict[str, Any] = {"percent": st.column_config.NumberColumn("% of text", format="%.1f")}
-        st.dataframe(pd.DataFrame(rows), hide_index=True, column_config=config, key=f"coverage_by_{what}")
+        head = f"| {what} | pairs | of\N{NO-BREAK SPACE}text |", "| --- | ---: | ---: |"
+        cells = [f"| {as_typed(row[what])} | {row['pairs']} | {row['percent']:.1f}\N{NO-BREAK SPACE}% |" for row in rows]
+        st.markdown("\n".join([*head, *cells]))
 
 
 def show_frequency(now: Chosen) -> None:

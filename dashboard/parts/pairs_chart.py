@@ -69,8 +69,10 @@ def heat_map(table: pd.DataFrame, colouring: str, order: Sequence[str]) -> alt.C
         y=alt.Y("left:N", sort=list(order), title="from", axis=axis, scale=alt.Scale(domain=list(order), paddingInner=0.06)),
         tooltip=tooltip,
     )
-    # The edge shows where a cell is that has no colour, and makes it one to click on.
-    cells = base.mark_rect(stroke="#888888", strokeOpacity=0.35, strokeWidth=0.5, cornerRadius=2, cursor="pointer").add_params(click)
+    # The edge shows where a cell is that has no colour, and makes it one to click on. A text for each would be a quarter of the work.
+    cells = base.mark_rect(
+        stroke="#888888", strokeOpacity=0.35, strokeWidth=0.5, cornerRadius=2, cursor="pointer", aria=False
+    ).add_params(click)  # fmt: skip
     if colouring == OFTEN:
         return cells.encode(color=alt.condition("datum.percent > 0", _often(table), alt.value("transparent")))
     names, colours = _palette(table, colouring)
