@@ -4,7 +4,9 @@ import json
 import re
 
 import pytest
-from browser import click_until, settled, tab
+from browser import click_until, eventually, settled, tab
+
+import lipdb
 
 STORY = "Bob may find five blue whales.\n你好\n" * 50
 
@@ -90,7 +92,7 @@ def test_a_click_right_after_a_second_language_is_not_lost(coverage) -> None:
     coverage.get_by_text("Pairs to draw").wait_for()
 
 
-def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> None:
+def test_an_uploaded_corpus_is_counted_registered_and_stays_chosen_when_others_change_the_mapping(app, coverage) -> None:
     view(coverage, "Corpora")
     file = {"name": "../My story.txt", "mimeType": "text/plain", "buffer": STORY.encode()}
     coverage.locator("input[type=file]").set_input_files(file)
@@ -101,9 +103,17 @@ def test_an_uploaded_corpus_is_counted_registered_and_chosen(app, coverage) -> N
     assert (scan["language"], scan["lines"], scan["spoken"], scan["state"]) == ("en", 100, 50, "current")
     assert re.fullmatch(r"[0-9a-f]{32}\.txt", scan["corpus"][0].split("/")[-1])
     assert "story" not in scan["path"]
-    coverage.get_by_text(re.compile(r"en: .*My story\.txt \(exact, .* pairs\)")).wait_for()
+    chosen = coverage.get_by_test_id("stMultiSelect").nth(1).get_by_text(re.compile(r"^en: .*My story\.txt \(exact, .* pairs\)$"))
+    chosen.wait_for()
     view(coverage, "Pairs")
     coverage.get_by_text(re.compile(r"^\d\d of 483$")).wait_for()
+    stale = coverage.get_by_text("My story.txt: counted with a mapping that has changed since")
+    for common, shown, told in (("ah", "Frequency", 1), ("aa", "Pairs", 0)):
+        with lipdb.open(str(app.database)) as db, db.edit(author="bob") as edit:
+            edit.put("en/phones.tsv", {**db.records["en/phones.tsv"]["A",], "common": common})
+        view(coverage, shown)
+        eventually(coverage, lambda told=told: stale.count() == told, "a warning while the mapping is another")
+        chosen.wait_for()
 
 
 @pytest.fixture

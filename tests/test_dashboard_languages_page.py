@@ -123,9 +123,23 @@ def test_an_edit_needs_a_name(db) -> None:
     assert db.store.revision == 1
 
 
+def test_undo_at_one_phone_leaves_what_was_typed_at_another_whose_name_begins_alike(db) -> None:
+    with db.edit(author="bob") as edit:
+        edit.put("en/phones.tsv", {**db.records["en/phones.tsv"]["t",], "phone": "t_common"})
+    page = languages_page(languages_phone_of_en="t_common")
+    field(page, "IPA").set_value("tʰ").run()
+    page.session_state["languages_phone_of_en"] = "t"
+    sound(page.run())
+    field(page, "IPA").set_value("t̪").run()
+    press(page, "Undo")
+    assert field(page, "IPA").value == "t"
+    page.session_state["languages_phone_of_en"] = "t_common"
+    assert field(sound(page.run()), "IPA").value == "tʰ"
+
+
 def test_an_alias_is_added_changed_and_deleted(db) -> None:
     page = languages_page(languages_tab="Aliases")
-    page.session_state["languages_alias_en__notation"] = "arpabet"
+    page.session_state["alias en   notation"] = "arpabet"
     field(page, "Symbol").set_value("NQ")
     field(page, "Stands for").set_value("N").run()
     press(page, "Save")

@@ -132,6 +132,10 @@ def test_who_had_something_unsaved_is_told_what_a_restart_took_and_keeps_what_th
             page.get_by_text("Not saved yet:").wait_for()
             settled(page)
         app.process.wait()
+        dialog = page.get_by_role("dialog")
+        dialog.get_by_text("start it again as you did before").wait_for()
+        assert dialog.get_by_text("lipdb dashboard").is_visible()
+        assert dialog.get_by_text("streamlit run").count() == 0
         with serving(tmp_path, port=port):
             told = page.get_by_role("alert").filter(has_text="What was not saved is gone")
             told.wait_for()

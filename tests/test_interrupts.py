@@ -9,6 +9,14 @@ from lipdb.coverage.executors import Workers
 from lipdb.interrupts import uninterrupted
 
 
+@pytest.fixture(autouse=True)
+def heard():
+    """Ctrl-C raises, also where the tests were started in the background: a shell makes those deaf to it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def test_what_comes_meanwhile_comes_afterwards() -> None:
     done = []
     with pytest.raises(KeyboardInterrupt), uninterrupted():

@@ -36,11 +36,10 @@ class Corpus:
 
     @property
     def label(self) -> str:
-        """What a visitor chooses."""
+        """What a visitor chooses. The state is no part of it: a field lets go of what is called otherwise than when it was chosen."""
         if self.scan is None:
             return f"{self.language}: {self.title}"
-        stale = "" if self.state == CURRENT else f", {self.state}"
-        return f"{self.language}: {self.title} ({self.scan.mode}, {self.scan.totals['pairs']:,} pairs{stale})"
+        return f"{self.language}: {self.title} ({self.scan.mode}, {self.scan.totals['pairs']:,} pairs)"
 
     def frequency(self) -> Frequency:
         """How often each pair occurs in it. Raises `InputError` when its result can't be read any more."""

@@ -26,7 +26,7 @@ MOST = 600
 REST = ""
 """What the face at rest is called among pictures of poses."""
 AJAR = 0.6
-"""How far the mouth is opened for poses that closed lips hide."""
+"""How far the mouth is opened for poses of which closed lips show nothing."""
 
 
 def gallery(name: str) -> None:
@@ -41,7 +41,7 @@ def gallery(name: str) -> None:
     shown = list(drawn.items())
     for start in range(0, len(shown), ACROSS):
         for column, (pose, picture) in zip(st.columns(ACROSS), shown[start : start + ACROSS], strict=False):
-            note = f"  \n*with {pose_set.opening} at {AJAR:g}, for closed lips hide it*" if pose in inside else ""
+            note = f"  \n*with {pose_set.opening} at {AJAR:g}; with closed lips nothing of it is seen*" if pose in inside else ""
             column.image(picture, caption=f"**{pose}**  \n{rows.get(pose, '')}{note}", width="stretch")
 
 

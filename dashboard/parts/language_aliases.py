@@ -50,27 +50,27 @@ def show_aliases(code: str, _character: str | None) -> None:
 def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notations: list[str]) -> None:
     phones = [SILENCE, *(name for (name,) in database().records[f"{code}/phones.tsv"])]
     row: Row = dict(rows[key]) if key else {"notation": "", "symbol": "", "phones": "", "source": "user", "comment": ""}  # type: ignore[index]
-    place = f"languages_alias_{code}_{'_'.join(key or ())}"
+    place = " ".join(["alias", code, *(key or ("", ""))])
     fill(place, {"notation": row["notation"] or None, "symbol": row["symbol"], "phones": row["phones"], "comment": row["comment"]})
     left, right = st.columns(2)
     notation = left.selectbox(
         "Notation",
         notations,
-        key=f"{place}_notation",
+        key=f"{place} notation",
         persist_state="session",
         accept_new_options=True,
         disabled=key is not None,
         placeholder="ipa",
     )
-    symbol = right.text_input("Symbol", key=f"{place}_symbol", persist_state="session", disabled=key is not None, max_chars=40)
+    symbol = right.text_input("Symbol", key=f"{place} symbol", persist_state="session", disabled=key is not None, max_chars=40)
     stands = st.text_input(
         "Stands for",
-        key=f"{place}_phones",
+        key=f"{place} phones",
         persist_state="session",
         max_chars=80,
         help=f"One phone of the language or several with spaces between them; {SILENCE} is a pause.",
     ).split()
-    comment = st.text_input("Comment", key=f"{place}_comment", persist_state="session", max_chars=200)
+    comment = st.text_input("Comment", key=f"{place} comment", persist_state="session", max_chars=200)
     edited = {
         **row,
         "notation": notation or "",
@@ -81,7 +81,7 @@ def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notat
     changed, may = edited != row, visitor().editor
     first, second, third = st.columns(3)
     what = f"{edited['notation']} {edited['symbol']} of {code} stands for {edited['phones']}"
-    if first.button("Save", type="primary", key=f"{place}_save", disabled=not changed or not may, width="stretch"):
+    if first.button("Save", type="primary", key=f"{place} save", disabled=not changed or not may, width="stretch"):
         with told():
             if not edited["notation"] or not edited["symbol"] or not stands:
                 raise InputError("give the notation, the symbol and what it stands for")
@@ -91,10 +91,10 @@ def _edit_alias(code: str, key: Key | None, rows: dict[Key, Row] | object, notat
             if key is None and (edited["notation"], edited["symbol"]) in rows:  # type: ignore[operator]
                 raise InputError(f"{edited['symbol']!r} of {edited['notation']} is there already; choose it in the list to change it")
             save_one(Edited(f"{code}/aliases.tsv", (edited["notation"], edited["symbol"]), edited), note=what, place=place, what=what)
-    if second.button("Undo", key=f"{place}_undo", disabled=not changed, width="stretch"):
+    if second.button("Undo", key=f"{place} undo", disabled=not changed, width="stretch"):
         forget(place)
         st.rerun()
-    if key is not None and third.button("Delete", key=f"{place}_delete", disabled=not may, width="stretch"):
+    if key is not None and third.button("Delete", key=f"{place} delete", disabled=not may, width="stretch"):
         with told():
             gone = f"{' '.join(key)} of {code} is gone"
             save_one(Edited(f"{code}/aliases.tsv", key, None), note=gone, place=place, what=gone)

@@ -84,26 +84,26 @@ def _phones(code: str, character: str | None) -> None:
 
 
 def _edit_phone(beside: st.delta_generator.DeltaGenerator, code: str, row: Row) -> None:
-    db, place = database(), f"languages_edit_{code}_{row['phone']}"
+    db, place = database(), f"phone {code} {row['phone']}"
     options = [key[0] for key in db.records["common.tsv"] if key[0] != SILENCE]
     fill(place, {"common": row["common"].split(), "ipa": row["ipa"], "example": row["example"], "comment": row["comment"]})
-    common = beside.multiselect("Common phones", options, format_func=common_titles(), key=f"{place}_common", persist_state="session")
+    common = beside.multiselect("Common phones", options, format_func=common_titles(), key=f"{place} common", persist_state="session")
     left, right = st.columns(2)
-    ipa = left.text_input("IPA", key=f"{place}_ipa", persist_state="session", max_chars=20)
-    example = right.text_input("Example word", key=f"{place}_example", persist_state="session", max_chars=80)
+    ipa = left.text_input("IPA", key=f"{place} ipa", persist_state="session", max_chars=20)
+    example = right.text_input("Example word", key=f"{place} example", persist_state="session", max_chars=80)
     left, right = st.columns(2)
-    comment = left.text_input("Comment", key=f"{place}_comment", persist_state="session", max_chars=400)
-    note = right.text_input("Why (for the history)", key=f"{place}_note", persist_state="session", max_chars=200)
+    comment = left.text_input("Comment", key=f"{place} comment", persist_state="session", max_chars=400)
+    note = right.text_input("Why (for the history)", key=f"{place} note", persist_state="session", max_chars=200)
     edited = {**row, "common": " ".join(common), "ipa": ipa.strip(), "example": example.strip(), "comment": " ".join(comment.split())}
     changed = edited != row
     first, second = st.columns(2)
-    if first.button("Save", type="primary", key=f"{place}_save", disabled=not changed or not visitor().editor, width="stretch"):
+    if first.button("Save", type="primary", key=f"{place} save", disabled=not changed or not visitor().editor, width="stretch"):
         with told():
             if not common:
                 raise InputError(f"{row['phone']}: choose at least one common phone")
             what = f"{row['phone']} of {code} maps to {edited['common']}"
             save_one(Edited(f"{code}/phones.tsv", (row["phone"],), edited), note=note or what, place=place, what=what)
-    if second.button("Undo", key=f"{place}_undo", disabled=not changed, width="stretch"):
+    if second.button("Undo", key=f"{place} undo", disabled=not changed, width="stretch"):
         forget(place)
         st.rerun()
     if changed:

@@ -14,6 +14,16 @@ if (!window.lipdbListens) {
     if (window.lipdbUnsaved?.unsaved.length) event.preventDefault();
   });
 
+  // Who has lost the server is told Streamlit's own command, which starts no dashboard.
+  new MutationObserver(() => {
+    const block = document.querySelector('body > [data-testid="stDialog"] [data-testid="stErrorCodeBlock"]');
+    const command = block?.querySelector("code");
+    if (!command?.textContent.startsWith("streamlit run")) return;
+    block.previousElementSibling.textContent = "The dashboard does not answer. If it has ended, start it again as you did before; then this page goes on:";
+    command.textContent = "lipdb dashboard";
+    block.querySelector("button").hidden = true; // it would copy the other
+  }).observe(document.body, { childList: true });
+
   // Streamlit takes nothing that is longer than a field may be, without a word.
   document.addEventListener("input", ({ target: field }) => {
     if (!field.closest?.('[data-testid="stTextInput"], [data-testid="stTextArea"]')) return;
