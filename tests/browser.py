@@ -38,10 +38,12 @@ FLAGS = [
 PATIENCE = 120_000
 """Milliseconds to wait for what a slow machine draws in software."""
 QUIET = 150
-"""Milliseconds without a word from the server, after which it has said all."""
-# When the page last asked its server for something, and when it last heard from it.
+"""Milliseconds without a word from the server and without a change of the page, after which all is said and drawn."""
+# When the page last asked its server for something, when it last heard from it, and when it last changed (but for what components draw).
 LISTEN = """
-    window.asked = window.heard = 0;
+    window.asked = window.heard = window.changed = 0;
+    new MutationObserver(() => { window.changed = performance.now(); })
+        .observe(document, { attributes: true, childList: true, characterData: true, subtree: true });
     const known = new WeakSet();
     const { send } = WebSocket.prototype;
     WebSocket.prototype.send = function (message) {
@@ -146,10 +148,17 @@ def tab(chromium: Any, **settings: Any) -> Iterator[Any]:
 
 
 def settled(page: Any) -> None:
-    """Wait until Streamlit has answered whatever was asked last, and has run the page to its end."""
+    """Wait until Streamlit has answered whatever was asked last, has run the page to its end and drawn what came of it."""
     ended = f"""() => document.querySelector("[data-testid=stApp]")?.dataset.testScriptState === "notRunning"
-        && window.heard > window.asked && performance.now() - window.heard > {QUIET}"""
-    eventually(page, lambda: page.evaluate(ended), "the page has run to its end")
+        && window.heard > window.asked && performance.now() - Math.max(window.heard, window.changed) > {QUIET}"""
+
+    # Twice: a page that was busy for so long has drawn nothing yet of what it heard, and would send old values with the next click.
+    def drawn() -> bool:
+        first = page.evaluate(ended)
+        page.wait_for_timeout(50)
+        return bool(first and page.evaluate(ended))
+
+    eventually(page, drawn, "the page has run to its end")
 
 
 def soon(holds: Callable[[], Any], what: str, *, wait: Callable[[], object] = lambda: time.sleep(0.1)) -> Any:
